@@ -1,0 +1,11 @@
+//! The formula language as text: tokens, syntax tree, spans, diagnostics and their rendering, and the printer.
+//!
+//! This crate knows nothing of types, shaders or files. [`parse`] never fails: it returns a tree and every
+//! diagnostic.
+
+pub mod ast;
+pub mod diagnostic;
+pub mod span;
+
+pub use diagnostic::{Diagnostic, Severity};
+pub use span::Span;
