@@ -71,11 +71,7 @@ impl Growing {
 }
 
 /// A uniform buffer of `bytes` bytes.
-pub(crate) fn uniform(
-    gpu: &Gpu,
-    label: &'static str,
-    bytes: usize,
-) -> Result<wgpu::Buffer, Error> {
+pub(crate) fn uniform(gpu: &Gpu, label: &'static str, bytes: usize) -> Result<wgpu::Buffer, Error> {
     gpu.guarded("allocation", || {
         gpu.device().create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),

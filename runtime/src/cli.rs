@@ -12,11 +12,13 @@ mod progress;
 mod render;
 mod scenes;
 mod source;
+mod spelling;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use pullback_runtime::AdapterChoice;
 
 pub(crate) use console::Console;
@@ -68,6 +70,7 @@ enum Command {
 #[derive(Debug, Args)]
 struct Input {
     /// A file (if it exists or ends in .pull), a formula, or - for the standard input
+    // So that `-x^2` is a formula.
     #[arg(value_name = "FILE|FORMULA", allow_hyphen_values = true)]
     input: OsString,
 }
@@ -106,6 +109,43 @@ enum Precision {
     Accurate,
 }
 
+impl Arguments {
+    /// Reads the process's arguments; tells what is wrong with them and exits if they cannot be read.
+    pub(crate) fn read() -> Self {
+        let arguments: Vec<OsString> = std::env::args_os().collect();
+        let mut command = Self::command();
+        // A formula may begin with a hyphen, so clap would take a misspelt option for one.
+        if let Some(message) = unknown_option(&command, &arguments) {
+            command.error(ErrorKind::UnknownArgument, message).exit();
+        }
+        Self::parse_from(arguments)
+    }
+}
+
+/// What is wrong with the first `--option` that no command knows, if there is one.
+fn unknown_option(command: &clap::Command, arguments: &[OsString]) -> Option<String> {
+    let commands = command.get_subcommands().chain([command]);
+    let mut known: Vec<&str> = commands
+        .flat_map(clap::Command::get_arguments)
+        .filter_map(clap::Arg::get_long)
+        .collect();
+    known.extend(["help", "version"]);
+    let unknown = arguments
+        .iter()
+        .skip(1)
+        .map(|argument| argument.to_string_lossy())
+        .take_while(|argument| argument != "--")
+        .find_map(|argument| {
+            let name = argument.strip_prefix("--")?.split('=').next()?.to_owned();
+            (!known.contains(&name.as_str())).then_some(name)
+        })?;
+    let mut message = format!("unexpected argument '--{unknown}' found");
+    if let Some(nearest) = spelling::nearest(&unknown, known) {
+        message += &format!("\n\n  tip: a similar argument exists: '--{nearest}'");
+    }
+    Some(message)
+}
+
 /// Runs the command; returns the exit code.
 pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
     let done = match arguments.command {
@@ -120,5 +160,51 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
     match done {
         Ok(()) => 0,
         Err(failure) => failure.report(console),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(line: &str) -> Result<Arguments, clap::Error> {
+        Arguments::try_parse_from(line.split(' '))
+    }
+
+    #[test]
+    fn the_definition_is_sound() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_formula_may_begin_with_a_hyphen() {
+        let check = |line: &str, expected: &str| {
+            let Command::Render(read) = parse(line).unwrap().command else {
+                panic!("{line}");
+            };
+            assert_eq!(read.input.input, expected, "{line}");
+        };
+        check("pullback render -x^2 -o a.png", "-x^2");
+        check("pullback render -o a.png -x^2", "-x^2");
+        check("pullback render --center -1,-2 -x", "-x");
+        check("pullback render -", "-");
+        check("pullback render -- --x", "--x");
+    }
+
+    #[test]
+    fn misspelt_options() {
+        let check = |line: &str, expected: Option<&str>| {
+            let arguments: Vec<OsString> = line.split(' ').map(OsString::from).collect();
+            let found = unknown_option(&Arguments::command(), &arguments);
+            assert_eq!(found.is_some(), expected.is_some(), "{line}");
+            if let (Some(found), Some(expected)) = (found, expected) {
+                assert!(found.contains(expected), "{found}");
+            }
+        };
+        check("pullback render --sixe 3 x", Some("'--size'"));
+        check("pullback render --size=3x3 x --set k=1", None);
+        check("pullback --help", None);
+        check("pullback eval x --zzzzzz=1", Some("--zzzzzz"));
+        check("pullback eval -- --x", None);
     }
 }

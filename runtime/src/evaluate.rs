@@ -241,3 +241,47 @@ impl GpuEvaluator {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::AdapterChoice;
+    use pullback_compiler::What;
+
+    fn evaluator(formula: &str) -> Option<GpuEvaluator> {
+        let gpu = Gpu::open(&AdapterChoice::Software).ok()?;
+        let program = pullback_compiler::compile(formula).program.unwrap();
+        let Ok(module) = program.eval_module(What::Value) else {
+            panic!("{formula} does not compile");
+        };
+        Some(GpuEvaluator::new(&gpu, &module).unwrap())
+    }
+
+    #[test]
+    fn batches_of_any_size_keep_the_order() {
+        let Some(mut evaluator) = evaluator("x + 2.0*y") else {
+            return;
+        };
+        for (count, budget) in [(0, 1), (1, 1), (1000, 7), (100_000, 64), (300_000, MOST)] {
+            evaluator.budget = budget;
+            let rows: Vec<f32> = (0..2 * count).map(|i| i as f32).collect();
+            let mut results = vec![-1.0];
+            evaluator
+                .eval(Surroundings::default(), count, &rows, &mut results)
+                .unwrap();
+            assert_eq!(results.len(), count + 1);
+            for (i, result) in results[1..].iter().enumerate() {
+                assert_eq!(*result, (6 * i + 2) as f32);
+            }
+        }
+    }
+
+    #[test]
+    fn rows_of_another_width_are_refused() {
+        let Some(mut evaluator) = evaluator("x + y") else {
+            return;
+        };
+        let refused = evaluator.eval(Surroundings::default(), 2, &[1.0; 3], &mut Vec::new());
+        assert!(matches!(refused, Err(Error::Invalid { .. })));
+    }
+}

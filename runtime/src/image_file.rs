@@ -147,6 +147,24 @@ pub fn encode_png(
     metadata: &Metadata,
     draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
 ) -> Result<(), Error> {
+    let mut output = Watched {
+        output,
+        failure: None,
+    };
+    let drawn = encode(&mut output, size, metadata, draw);
+    match (drawn, output.failure) {
+        // The encoder passes on the text of a failure alone.
+        (Err(Error::Io(_)), Some(failure)) => Err(Error::Io(failure)),
+        (drawn, _) => drawn,
+    }
+}
+
+fn encode(
+    output: &mut Watched,
+    size: Size,
+    metadata: &Metadata,
+    draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
+) -> Result<(), Error> {
     let mut encoder = png::Encoder::new(output, size.width, size.height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
@@ -175,6 +193,40 @@ pub fn encode_png(
     }
     writer.finish().map_err(io_error)?;
     Ok(())
+}
+
+/// An output that remembers its first failure, and writes no more after it.
+struct Watched<'a> {
+    output: &'a mut dyn Write,
+    failure: Option<io::Error>,
+}
+
+impl Watched<'_> {
+    fn attempt<T>(
+        &mut self,
+        action: impl FnOnce(&mut dyn Write) -> io::Result<T>,
+    ) -> io::Result<T> {
+        if let Some(failure) = &self.failure {
+            return Err(failure.kind().into());
+        }
+        action(self.output).map_err(|error| {
+            let kind = error.kind();
+            if kind != io::ErrorKind::Interrupted {
+                self.failure = Some(error);
+            }
+            kind.into()
+        })
+    }
+}
+
+impl Write for Watched<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.attempt(|output| output.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.attempt(|output| output.flush())
+    }
 }
 
 fn io_error(error: png::EncodingError) -> Error {
@@ -268,6 +320,23 @@ mod tests {
         assert!(files(folder.path()).is_empty());
         write_png(&path, SIZE, &Metadata::default(), draw).unwrap();
         assert_eq!(files(folder.path()), ["a.png"]);
+    }
+
+    #[test]
+    fn the_kind_of_a_failure_is_kept() {
+        struct Closed;
+        impl Write for Closed {
+            fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+                Err(io::ErrorKind::BrokenPipe.into())
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        let failed = encode_png(&mut Closed, SIZE, &Metadata::default(), draw);
+        assert!(
+            matches!(failed, Err(Error::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe)
+        );
     }
 
     #[test]

@@ -5,15 +5,14 @@ mod cli;
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
-use clap::Parser;
-
 use cli::{Arguments, Console};
 
 /// Enough for the deepest formula that the compiler accepts, in an unoptimised build too.
 const STACK: usize = 256 << 20;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    quieten_loader();
+    let arguments = Arguments::read();
     let terminal = io::stderr().is_terminal();
     let console = Console {
         color: terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
@@ -33,7 +32,9 @@ fn main() -> ExitCode {
                 .map(String::as_str)
                 .or_else(|| panic.downcast_ref::<&str>().copied())
                 .unwrap_or("unknown cause");
-            say(&format!("error: internal error, please report it: {message}"));
+            say(&format!(
+                "error: internal error, please report it: {message}"
+            ));
             101
         }
         Err(error) => {
@@ -42,6 +43,18 @@ fn main() -> ExitCode {
         }
     };
     ExitCode::from(code)
+}
+
+/// Mesa's device selection layer looks for a desktop, and where there is none it complains on the standard error at
+/// every start. We choose the device ourselves, so it is switched off there.
+fn quieten_loader() {
+    if cfg!(target_os = "linux") && std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        // SAFETY: called first in `main`, before any other thread exists. The layer reads nothing but the environment.
+        #[allow(unsafe_code)]
+        unsafe {
+            std::env::set_var("NODEVICE_SELECT", "1");
+        }
+    }
 }
 
 /// Writes a line to the standard error, if there still is one.

@@ -140,10 +140,19 @@ impl Renderer {
     /// [`Error::Invalid`] for a frame outside of the limits, [`Error::Io`] from the sink, and the device's errors.
     pub fn render(&mut self, frame: &Frame, sink: &mut dyn RowSink) -> Result<(), Error> {
         self.check(frame)?;
+        let stage = self.stage(frame.pipeline)?;
+        let budget = Budget::new(frame.samples, stage.max_pixels(), stage.max_side());
+        self.render_within(frame, budget, sink)
+    }
+
+    fn render_within(
+        &mut self,
+        frame: &Frame,
+        mut budget: Budget,
+        sink: &mut dyn RowSink,
+    ) -> Result<(), Error> {
         self.upload(frame)?;
         let Size { width, height } = frame.size;
-        let stage = self.stage(frame.pipeline)?;
-        let mut budget = Budget::new(frame.samples, stage.max_pixels(), stage.max_side());
         let total = u64::from(width) * u64::from(height);
         let first = tiles::probe(width, height, frame.samples);
         // Twice: the first run of a pipeline may still compile.
@@ -200,7 +209,7 @@ impl Renderer {
             ));
         }
         if frame.settings.len() as u64 > self.uniforms.settings.size()
-            || frame.settings.len() % 4 != 0
+            || !frame.settings.len().is_multiple_of(4)
         {
             return invalid(format!(
                 "{} bytes of settings for a scene that has {}",
@@ -365,5 +374,150 @@ fn place(band: &mut [u8], width: u32, top: u32, tile: Tile, bytes: &[u8], stride
         .skip((tile.y - top) as usize);
     for (line, pixels) in lines.zip(bytes.chunks(stride)).take(tile.height as usize) {
         line[left..left + row].copy_from_slice(&pixels[..row]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::AdapterChoice;
+
+    const SIZE: Size = Size {
+        width: 213,
+        height: 117,
+    };
+
+    fn scene(formula: &str) -> SceneModule {
+        let program = pullback_compiler::compile(formula).program.unwrap();
+        match program.scene_module(0) {
+            Ok(scene) => scene,
+            Err(diagnostics) => panic!("{diagnostics:?}"),
+        }
+    }
+
+    fn frame<'a>(scene: &'a SceneModule, params: &'a [f64], pipeline: Pipeline) -> Frame<'a> {
+        Frame {
+            view: View {
+                center: scene.view.center,
+                height: 2.0 * scene.view.half_height,
+            },
+            params,
+            settings: &scene.settings,
+            size: SIZE,
+            samples: 2,
+            time: 0.0,
+            pipeline,
+        }
+    }
+
+    /// A software adapter, if there is one: the same results everywhere.
+    fn software() -> Option<Gpu> {
+        Gpu::open(&AdapterChoice::Software).ok()
+    }
+
+    #[test]
+    fn both_pipelines_and_any_tiles_give_one_picture() {
+        let Some(gpu) = software() else { return };
+        let scene = scene("x*x + y*y");
+        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
+        let mut pictures = Vec::new();
+        for pipeline in [Pipeline::Compute, Pipeline::Fragment] {
+            for (max_pixels, max_side) in [(u64::MAX, 8192), (1000, 8192), (u64::MAX, 64), (1, 8)] {
+                let budget = Budget::new(2, max_pixels, max_side);
+                let mut rows = Vec::new();
+                renderer
+                    .render_within(&frame(&scene, &[], pipeline), budget, &mut rows)
+                    .unwrap();
+                assert_eq!(rows.len(), 213 * 117 * 4);
+                pictures.push(rows);
+            }
+        }
+        for picture in &pictures[1..] {
+            assert!(*picture == pictures[0]);
+        }
+        let distinct: std::collections::HashSet<_> =
+            pictures[0].as_chunks::<4>().0.iter().collect();
+        assert!(distinct.len() > 20, "{} colours", distinct.len());
+    }
+
+    #[test]
+    fn a_frame_outside_of_the_limits_is_refused() {
+        let Some(gpu) = software() else { return };
+        let scene = scene("x + y");
+        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
+        let good = frame(&scene, &[], Pipeline::Compute);
+        let many = [0.0; 65];
+        let size = |width, height| Size { width, height };
+        let bad = [
+            Frame {
+                size: size(0, 5),
+                ..good.clone()
+            },
+            Frame {
+                size: size(5, MAX_SIDE + 1),
+                ..good.clone()
+            },
+            Frame {
+                samples: 0,
+                ..good.clone()
+            },
+            Frame {
+                samples: MAX_SAMPLES + 1,
+                ..good.clone()
+            },
+            Frame {
+                params: &many,
+                ..good.clone()
+            },
+            Frame {
+                settings: &[0; 4096],
+                ..good.clone()
+            },
+            Frame {
+                settings: &[0; 3],
+                ..good.clone()
+            },
+            Frame {
+                view: View {
+                    center: [0.0; 2],
+                    height: 0.0,
+                },
+                ..good.clone()
+            },
+            Frame {
+                view: View {
+                    center: [0.0; 2],
+                    height: f64::NAN,
+                },
+                ..good.clone()
+            },
+            Frame {
+                view: View {
+                    center: [1e300, 0.0],
+                    height: 1.0,
+                },
+                ..good.clone()
+            },
+        ];
+        for frame in bad {
+            let refused = renderer.render(&frame, &mut Vec::new());
+            assert!(matches!(refused, Err(Error::Invalid { .. })), "{refused:?}");
+        }
+        assert!(renderer.render(&good, &mut Vec::new()).is_ok());
+    }
+
+    #[test]
+    fn a_failing_sink_ends_the_picture() {
+        struct Full;
+        impl RowSink for Full {
+            fn rows(&mut self, _: &[u8]) -> io::Result<()> {
+                Err(io::ErrorKind::StorageFull.into())
+            }
+        }
+        let Some(gpu) = software() else { return };
+        let scene = scene("x + y");
+        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
+        let failed = renderer.render(&frame(&scene, &[], Pipeline::Compute), &mut Full);
+        assert!(matches!(failed, Err(Error::Io(_))), "{failed:?}");
     }
 }

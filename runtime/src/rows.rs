@@ -191,7 +191,10 @@ fn parse_row<T: Number>(
         let end = content.trim_ascii_end().len();
         return Err(bad(
             end,
-            format!("{} expected, but the row ends after {count}", numbers(columns)),
+            format!(
+                "{} expected, but the row ends after {count}",
+                numbers(columns)
+            ),
         ));
     }
     Ok(true)
@@ -208,7 +211,11 @@ fn numbers(count: usize) -> String {
 fn words(line: &[u8], skip: usize) -> impl Iterator<Item = (usize, &[u8])> {
     let mut at = skip;
     std::iter::from_fn(move || {
-        let start = at + line.get(at..)?.iter().position(|b| !b.is_ascii_whitespace())?;
+        let start = at
+            + line
+                .get(at..)?
+                .iter()
+                .position(|b| !b.is_ascii_whitespace())?;
         let length = line[start..]
             .iter()
             .position(u8::is_ascii_whitespace)
@@ -294,8 +301,16 @@ mod tests {
         };
         check(2, "1 2\n", &[1.0, 2.0]);
         check(2, "1\t2", &[1.0, 2.0]);
-        check(2, "\n# c\n 1e3  -2.5 # d\r\n\n+.5 5.\n", &[1e3, -2.5, 0.5, 5.0]);
-        check(1, "inf\n-inf\nInfinity\n", &[f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY]);
+        check(
+            2,
+            "\n# c\n 1e3  -2.5 # d\r\n\n+.5 5.\n",
+            &[1e3, -2.5, 0.5, 5.0],
+        );
+        check(
+            1,
+            "inf\n-inf\nInfinity\n",
+            &[f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY],
+        );
         check(1, "\u{feff}1\n\u{2212}3\n", &[1.0, -3.0]);
         check(1, "", &[]);
         check(1, "#", &[]);
@@ -308,18 +323,42 @@ mod tests {
         let check = |columns, text: &[u8], errors: &[&str]| {
             assert_eq!(read::<f64>(columns, text).1, errors, "{text:?}");
         };
-        check(2, b"1\n", &["line 1, column 2: 2 numbers expected, but the row ends after 1"]);
+        check(
+            2,
+            b"1\n",
+            &["line 1, column 2: 2 numbers expected, but the row ends after 1"],
+        );
         check(1, b"1 2\n", &["line 1, column 3: more than 1 number"]);
-        check(2, b"1 2\n\n3  x # y\n4 5\n6 7 8", &[
-            "line 3, column 4: `x` is not a number",
-            "line 5, column 5: more than 2 numbers",
-        ]);
+        check(
+            2,
+            b"1 2\n\n3  x # y\n4 5\n6 7 8",
+            &[
+                "line 3, column 4: `x` is not a number",
+                "line 5, column 5: more than 2 numbers",
+            ],
+        );
         check(1, b"1,5", &["line 1, column 1: `1,5` is not a number"]);
-        check(1, b"\xff\xfe", &["line 1, column 1: `\u{fffd}\u{fffd}` is not a number"]);
-        check(2, "π 1".as_bytes(), &["line 1, column 1: `π` is not a number"]);
-        check(2, "1 π".as_bytes(), &["line 1, column 3: `π` is not a number"]);
+        check(
+            1,
+            b"\xff\xfe",
+            &["line 1, column 1: `\u{fffd}\u{fffd}` is not a number"],
+        );
+        check(
+            2,
+            "π 1".as_bytes(),
+            &["line 1, column 1: `π` is not a number"],
+        );
+        check(
+            2,
+            "1 π".as_bytes(),
+            &["line 1, column 3: `π` is not a number"],
+        );
         let long = vec![b'1'; MAX_LINE * 3];
-        check(1, &long, &["line 1, column 1: line of more than 65536 bytes"]);
+        check(
+            1,
+            &long,
+            &["line 1, column 1: line of more than 65536 bytes"],
+        );
     }
 
     #[test]
@@ -335,7 +374,10 @@ mod tests {
         let mut reader = RowReader::new(&b"1e50\ninf\n-1e50\n1e38"[..], 1);
         let mut values = Vec::new();
         reader.read::<f32>(9, &mut values, &mut Vec::new()).unwrap();
-        assert_eq!(values, [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, 1e38]);
+        assert_eq!(
+            values,
+            [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, 1e38]
+        );
         assert_eq!(reader.overflows(), 2);
     }
 
@@ -346,9 +388,18 @@ mod tests {
             write_rows(&mut out, values.len(), values).unwrap();
             String::from_utf8(out).unwrap()
         };
-        assert_eq!(text(&[1.0, -0.0, 0.1, 1e38, 1e-45]), "1\t-0\t0.1\t1e38\t1e-45\n");
-        assert_eq!(text(&[f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY]), "nan\tnan\tinf\t-inf\n");
-        assert_eq!(text(&[16_777_217.0, 0.333_333_34]), "16777216\t0.33333334\n");
+        assert_eq!(
+            text(&[1.0, -0.0, 0.1, 1e38, 1e-45]),
+            "1\t-0\t0.1\t1e38\t1e-45\n"
+        );
+        assert_eq!(
+            text(&[f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY]),
+            "nan\tnan\tinf\t-inf\n"
+        );
+        assert_eq!(
+            text(&[16_777_217.0, 0.333_333_34]),
+            "16777216\t0.33333334\n"
+        );
         for bits in (0..u32::MAX).step_by(65_537) {
             let value = f32::from_bits(bits);
             let back: f32 = text(&[value]).trim().parse().unwrap();

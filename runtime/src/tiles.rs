@@ -196,7 +196,14 @@ mod tests {
                 "{width}x{height} at {cost}: {longest} s"
             );
         };
-        for (width, height) in [(1, 1), (7, 3), (640, 480), (1, 2000), (9000, 3), (1001, 777)] {
+        for (width, height) in [
+            (1, 1),
+            (7, 3),
+            (640, 480),
+            (1, 2000),
+            (9000, 3),
+            (1001, 777),
+        ] {
             for cost in [1e-9, 1e-7, 1e-5, 1e-2] {
                 check(width, height, 1, cost);
                 check(width, height, 4, cost);

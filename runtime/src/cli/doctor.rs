@@ -13,10 +13,22 @@ use super::failure::{Failure, INSTALL_SOFTWARE};
 
 /// Features that make a difference to us, and what they are good for.
 const FEATURES: [(&str, wgpu::Features, &str); 4] = [
-    ("SHADER_F64", wgpu::Features::SHADER_F64, "native double precision"),
-    ("TIMESTAMP_QUERY", wgpu::Features::TIMESTAMP_QUERY, "timing on the device"),
+    (
+        "SHADER_F64",
+        wgpu::Features::SHADER_F64,
+        "native double precision",
+    ),
+    (
+        "TIMESTAMP_QUERY",
+        wgpu::Features::TIMESTAMP_QUERY,
+        "timing on the device",
+    ),
     ("SUBGROUP", wgpu::Features::SUBGROUP, "subgroup operations"),
-    ("PASSTHROUGH_SHADERS", wgpu::Features::PASSTHROUGH_SHADERS, "shaders decorated by us"),
+    (
+        "PASSTHROUGH_SHADERS",
+        wgpu::Features::PASSTHROUGH_SHADERS,
+        "shaders decorated by us",
+    ),
 ];
 /// Rows of the trial.
 const ROWS: usize = 1 << 16;

@@ -135,12 +135,7 @@ impl Machine for Reference<'_> {
         self.evaluator.outputs().len()
     }
 
-    fn eval(
-        &mut self,
-        count: usize,
-        rows: &[f64],
-        results: &mut Vec<f64>,
-    ) -> Result<(), Failure> {
+    fn eval(&mut self, count: usize, rows: &[f64], results: &mut Vec<f64>) -> Result<(), Failure> {
         let (inputs, outputs) = (self.evaluator.inputs().len(), self.outputs());
         let Surroundings {
             params,
@@ -169,13 +164,10 @@ impl Machine for OnDevice<'_> {
         self.evaluator.outputs().len()
     }
 
-    fn eval(
-        &mut self,
-        count: usize,
-        rows: &[f32],
-        results: &mut Vec<f32>,
-    ) -> Result<(), Failure> {
-        Ok(self.evaluator.eval(self.surroundings, count, rows, results)?)
+    fn eval(&mut self, count: usize, rows: &[f32], results: &mut Vec<f32>) -> Result<(), Failure> {
+        Ok(self
+            .evaluator
+            .eval(self.surroundings, count, rows, results)?)
     }
 }
 
@@ -203,10 +195,15 @@ impl Table {
             ));
         };
         if inputs.is_empty() {
-            return Err(Failure::usage("this function has no arguments: leave --points out"));
+            return Err(Failure::usage(
+                "this function has no arguments: leave --points out",
+            ));
         }
         let (name, input): (String, Box<dyn BufRead>) = if points == "-" {
-            ("standard input".into(), Box::new(BufReader::new(io::stdin())))
+            (
+                "standard input".into(),
+                Box::new(BufReader::new(io::stdin())),
+            )
         } else {
             let name = points.to_string_lossy().into_owned();
             match File::open(points) {

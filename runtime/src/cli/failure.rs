@@ -91,7 +91,8 @@ impl Failure {
                         console.hint("`pullback doctor` lists the adapters");
                     }
                     Error::Invalid { .. } | Error::Io(_) => {}
-                    _ => console.hint("`pullback doctor` tests the adapters; choose one with --adapter"),
+                    _ => console
+                        .hint("`pullback doctor` tests the adapters; choose one with --adapter"),
                 }
                 3
             }

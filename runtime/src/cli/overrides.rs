@@ -5,8 +5,8 @@ use std::str::FromStr;
 use pullback_compiler::{Picture, Program, SceneModule};
 use pullback_runtime::settings;
 
-use super::Console;
 use super::failure::Failure;
+use super::{Console, spelling};
 
 /// `name=value` or `name=a,b,c`.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +36,9 @@ impl FromStr for Assignment {
             .map(|part| match part.trim() {
                 "true" => Ok(1.0),
                 "false" => Ok(0.0),
-                part => part.parse().map_err(|_| format!("`{part}` is not a number")),
+                part => part
+                    .parse()
+                    .map_err(|_| format!("`{part}` is not a number")),
             })
             .collect::<Result<_, String>>()?;
         Ok(Self {
@@ -127,32 +129,11 @@ fn unknown(name: &str, program: &Program, picture: Option<&Picture>) -> Failure 
     if names.is_empty() {
         return Failure::usage(message);
     }
-    let nearest = names
-        .iter()
-        .map(|known| (distance(name, known), *known))
-        .min()
-        .filter(|(distance, known)| *distance <= known.chars().count().max(3) / 3);
-    let hint = match nearest {
-        Some((_, known)) => format!("did you mean `{known}`?"),
-        None => format!("there are {}", names.join(", ")),
+    let hint = match spelling::nearest(name, names.iter().copied()) {
+        Some(known) => format!("did you mean `{known}`?"),
+        None => format!("the names are {}", names.join(", ")),
     };
     Failure::usage_hint(message, hint)
-}
-
-/// Levenshtein's edit distance, by the rows of its table.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }
 
 #[cfg(test)]
@@ -174,12 +155,5 @@ mod tests {
         for bad in ["k", "=1", "k=", "k=x", "k=1,,2", "k=1..2..3"] {
             assert!(bad.parse::<Assignment>().is_err(), "{bad}");
         }
-    }
-
-    #[test]
-    fn distances() {
-        assert_eq!(distance("levle", "level"), 2);
-        assert_eq!(distance("", "abc"), 3);
-        assert_eq!(distance("gain", "gain"), 0);
     }
 }

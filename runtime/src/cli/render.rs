@@ -16,7 +16,7 @@ use super::{Console, Device, Input, Output, Settings, overrides};
 #[derive(Debug, Args)]
 pub(super) struct RenderArguments {
     #[command(flatten)]
-    input: Input,
+    pub(super) input: Input,
     #[command(flatten)]
     output: Output,
     /// Width and height of the picture in pixels
@@ -152,6 +152,14 @@ fn metadata(
         .collect();
     let settings: Vec<String> = pullback_runtime::settings::slots(&scene.module)
         .iter()
+        // The shader's structure has members that only fill it up.
+        .filter(|slot| {
+            picture
+                .scene
+                .settings
+                .iter()
+                .any(|spec| spec.name == slot.name)
+        })
         .filter_map(|slot| {
             let values: Vec<String> = slot
                 .read(frame.settings)?
@@ -227,7 +235,15 @@ mod tests {
         let side = |text| size(text).map(|size| (size.width, size.height)).ok();
         assert_eq!(side("1920x1080"), Some((1920, 1080)));
         assert_eq!(side("16384×1"), Some((16384, 1)));
-        for bad in ["", "1920", "0x1", "1x16385", "-1x1", "1x1x1", "99999999999x1"] {
+        for bad in [
+            "",
+            "1920",
+            "0x1",
+            "1x16385",
+            "-1x1",
+            "1x1x1",
+            "99999999999x1",
+        ] {
             assert_eq!(side(bad), None, "{bad}");
         }
     }

@@ -29,7 +29,10 @@ fn list(output: &mut dyn Write, markdown: bool) -> io::Result<()> {
         }
         if markdown {
             writeln!(output, "## {}\n\n{}\n", scene.name, scene.doc)?;
-            writeln!(output, "| setting | default | range | meaning |\n| --- | --- | --- | --- |")?;
+            writeln!(
+                output,
+                "| setting | default | range | meaning |\n| --- | --- | --- | --- |"
+            )?;
             for spec in scene.settings {
                 writeln!(
                     output,

@@ -68,12 +68,6 @@ fn count(diagnostics: &[Diagnostic]) -> usize {
 /// Name, stem and bytes of the input.
 fn read(input: &OsStr) -> Result<(String, String, Vec<u8>), Failure> {
     let shown = input.to_string_lossy().into_owned();
-    if shown.starts_with("--") {
-        return Err(Failure::usage_hint(
-            format!("unknown option `{shown}`"),
-            "`--help` lists the options",
-        ));
-    }
     if input == "-" {
         let bytes = limited(io::stdin()).map_err(|error| Failure::Io {
             what: "standard input".into(),
