@@ -79,7 +79,7 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
         Part::Gradient => What::Gradient,
         Part::Derivative => What::Derivative,
     };
-    let (params, _) = overrides::apply(&arguments.settings.set, &source.program, None, console)?;
+    let params = overrides::for_values(&arguments.settings.set, &source.program)?;
     let surroundings = Surroundings {
         params: &params,
         time: arguments.settings.time,

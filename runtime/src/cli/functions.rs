@@ -23,32 +23,36 @@ pub(super) fn run(arguments: &FunctionsArguments) -> Result<(), Failure> {
 }
 
 fn list(output: &mut dyn Write, markdown: bool) -> io::Result<()> {
+    // Operators that are only signs have no name to look up, but a usage.
     let rows: Vec<_> = pullback_compiler::functions().collect();
     if markdown {
-        writeln!(output, "| function | also | meaning |\n| --- | --- | --- |")?;
+        writeln!(output, "| written | also | meaning |\n| --- | --- | --- |")?;
         for row in rows {
-            let aliases: Vec<_> = row.aliases.iter().map(|name| format!("`{name}`")).collect();
+            let also: Vec<_> = also(row.names).map(|name| format!("`{name}`")).collect();
             writeln!(
                 output,
                 "| `{}` | {} | {} |",
-                row.signature.replace('|', "\\|"),
-                aliases.join(", "),
+                row.usage.replace('|', "\\|"),
+                also.join(", "),
                 row.doc.replace('|', "\\|")
             )?;
         }
         return Ok(());
     }
-    let width = rows
-        .iter()
-        .map(|row| row.signature.chars().count())
-        .max()
-        .unwrap_or(0);
+    let lengths = rows.iter().map(|row| row.usage.chars().count());
+    let width = lengths.max().unwrap_or(0);
     for row in rows {
-        write!(output, "{:width$}  {}", row.signature, row.doc)?;
-        if !row.aliases.is_empty() {
-            write!(output, " (also {})", row.aliases.join(", "))?;
+        write!(output, "{:width$}  {}", row.usage, row.doc)?;
+        let also: Vec<_> = also(row.names).collect();
+        if !also.is_empty() {
+            write!(output, " (also {})", also.join(", "))?;
         }
         writeln!(output)?;
     }
     Ok(())
+}
+
+/// Names but the usual one.
+fn also<'a>(names: &'a [&'a str]) -> impl Iterator<Item = &'a str> {
+    names.iter().skip(1).copied()
 }

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use pullback_compiler::scene::{SettingKind, SettingSpec};
 use pullback_compiler::{Picture, SceneModule};
 use pullback_runtime::render::{MAX_SAMPLES, MAX_SIDE};
-use pullback_runtime::{Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, image_file};
+use pullback_runtime::{Frame, Gpu, Metadata, Pipeline, Renderer, Size, image_file};
 
 use super::failure::Failure;
 use super::progress::{Counted, Progress};
@@ -56,19 +57,14 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     let index = picture(arguments.show, &source, console)?;
     let scene = source.expect(source.program.scene_module(index), console)?;
     let picture = &source.program.pictures()[index];
-    let (params, settings) = overrides::apply(
-        &arguments.settings.set,
-        &source.program,
-        Some((picture, &scene)),
-        console,
-    )?;
+    let (params, mut situation) =
+        overrides::for_picture(&arguments.settings.set, &source.program, picture, &scene)?;
+    situation.view.center = arguments.center.unwrap_or(situation.view.center);
+    situation.view.height = arguments.height.unwrap_or(situation.view.height);
     let frame = Frame {
-        view: View {
-            center: arguments.center.unwrap_or(scene.view.center),
-            height: arguments.height.unwrap_or(2.0 * scene.view.half_height),
-        },
+        view: situation.view,
         params: &params,
-        settings: &settings,
+        settings: &situation.settings,
         size: arguments.size,
         samples: arguments.samples,
         time: arguments.settings.time,
@@ -152,21 +148,11 @@ fn metadata(
         .collect();
     let settings: Vec<String> = pullback_runtime::settings::slots(&scene.module)
         .iter()
-        // The shader's structure has members that only fill it up.
-        .filter(|slot| {
-            picture
-                .scene
-                .settings
-                .iter()
-                .any(|spec| spec.name == slot.name)
-        })
         .filter_map(|slot| {
-            let values: Vec<String> = slot
-                .read(frame.settings)?
-                .iter()
-                .map(f64::to_string)
-                .collect();
-            Some(format!("{} = {}", slot.name, values.join(", ")))
+            // The shader's structure may have members that only fill it up.
+            let spec = picture.scene.setting(&slot.name)?;
+            let values = slot.read(frame.settings)?;
+            Some(format!("{} = {}", slot.name, setting(spec, &values)))
         })
         .collect();
     Metadata(vec![
@@ -187,6 +173,20 @@ fn metadata(
         ("Settings", settings.join("; ")),
         ("Adapter", gpu.adapter().to_string()),
     ])
+}
+
+/// A setting's value as one writes it.
+fn setting(spec: &SettingSpec, values: &[f64]) -> String {
+    if let SettingKind::Choice(words) = spec.kind
+        && let Some(word) = values.first().and_then(|&place| words.get(place as usize))
+    {
+        return (*word).to_owned();
+    }
+    let values: Vec<String> = values.iter().map(f64::to_string).collect();
+    match &values[..] {
+        [one] => one.clone(),
+        _ => format!("({})", values.join(", ")),
+    }
 }
 
 /// What to call an output in messages.
