@@ -11,7 +11,7 @@ use crate::{Error, RowSink, Size};
 /// Bytes of compressed data in a chunk.
 const CHUNK: usize = 1 << 16;
 /// Pictures of more pixels are compressed quickly rather than well.
-const QUICK_FROM: u64 = 24_000_000;
+const QUICK_FROM: u64 = 4_000_000;
 
 /// What a picture file says of itself: keywords and texts, in order.
 ///
