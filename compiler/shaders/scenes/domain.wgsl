@@ -96,12 +96,12 @@ struct Scaled {
 // For finite w other than 0, subnormals included.
 fn scale_value(w: vec2f) -> Scaled {
     let size = max(abs(w.x), abs(w.y));
-    if size > 1.8446744e19 {
+    if size > 1e18 {
         return Scaled(w * 5.421010862427522e-20, 64.0);
     }
-    if size < 5.421010862427522e-20 {
+    if size < 1e-18 {
         let up = vec2f(magnify_tiny(w.x), magnify_tiny(w.y));
-        if max(abs(up.x), abs(up.y)) < 5.421010862427522e-20 {
+        if max(abs(up.x), abs(up.y)) < 1e-18 {
             return Scaled(up * 1.8446744073709552e19, -128.0);
         }
         return Scaled(up, -64.0);
@@ -117,9 +117,10 @@ fn rate_of_log(a: vec2f, b: vec2f, direction: vec2f, side: f32) -> f32 {
     return length2_safe(turned_a + side * turned_b);
 }
 
-// `length · 2^-exponent / size`, per pixel and in units of `period`; a rate that is not known counts as none.
+// `length · 2^-exponent / size`, per pixel and in units of `period`; a rate that is not known (NaN, overflow) counts
+// as none.
 fn pixel_rate(length: f32, scaled: Scaled, size: f32, period: f32) -> f32 {
-    if is_nan(length) {
+    if is_nan(length) || is_inf(length) {
         return 0.0;
     }
     let rate = length * exp2(-0.5 * scaled.exponent) / size * exp2(-0.5 * scaled.exponent);
