@@ -97,7 +97,7 @@ struct Scaled {
 fn scale_value(w: vec2f) -> Scaled {
     let size = max(abs(w.x), abs(w.y));
     if size > 1e18 {
-        return Scaled(w * 5.421010862427522e-20, 64.0);
+        return Scaled(w * 1.262177448353619e-29, 96.0);
     }
     if size < 1e-18 {
         let up = vec2f(magnify_tiny(w.x), magnify_tiny(w.y));

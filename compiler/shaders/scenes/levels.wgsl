@@ -5,7 +5,7 @@
 // | spacing      | f32   | 0                | 0..        | value  | between level lines; 0: a quarter of color_scale |
 // | color_scale  | f32   | 1                | >0         | value  | where the colour has gone 71 % of the way to its end |
 // | line_width   | f32   | 1.2              | 0..20      | pixels | of level lines |
-// | zero_width   | f32   | 2.6              | 0..20      | pixels | of the line f = 0; 0: none |
+// | zero_width   | f32   | 2.6              | 0..20      | pixels | of the line f = 0; 0: like the others |
 // | line_opacity | f32   | 0.5              | 0..1       |        | of level lines |
 // | major        | u32   | 5                | 0..100     | lines  | every how many lines one is stronger; 0: none |
 // | palette      | u32   | 0                | 0..2       |        | 0 blue-white-red, 1 indigo to cream, 2 paper |

@@ -13,8 +13,8 @@
 // | fov             | f32   | 28                | 1..120    | degrees | field of view across the shorter side of the image |
 // | light_yaw       | f32   | -50               |           | degrees | of the light around z, from the camera's yaw |
 // | light_pitch     | f32   | 52                | -90..90   | degrees | of the light above the ground |
-// | outside         | vec3f | 0.72 0.30 0.12    | 0..1      | linear  | colour of the side where f > level |
-// | inside          | vec3f | 0.10 0.30 0.56    | 0..1      | linear  | colour of the side where f < level |
+// | outside         | vec3f | 0.66 0.23 0.085   | 0..1      | linear  | colour of the side where f > level |
+// | inside          | vec3f | 0.06 0.22 0.45    | 0..1      | linear  | colour of the side where f < level |
 // | background      | vec3f | 0.80 0.82 0.85    | 0..1      | linear  | colour of the horizon |
 // | isoline_spacing | f32   | 0.5               | 0..       | value   | between the lines on the walls; 0: only the surface's |
 // | isoline_width   | f32   | 1.1               | 0..20     | pixels  | of the lines on the walls |
@@ -90,8 +90,8 @@ fn blinn_specular(n: vec3f, l: vec3f, v: vec3f, exponent: f32) -> f32 { return 0
 fn schlick_fresnel(cosine: f32, f0: f32) -> f32 { return 0.0; }
 
 const DEGREE: f32 = 0.017453292519943295;
-// Values are kept within ±HUGE, so that differences and ratios of them are finite.
-const HUGE: f32 = 1e30;
+// Values are kept within ±LARGEST, so that differences and ratios of them are finite.
+const LARGEST: f32 = 1e30;
 const INK: vec3f = vec3f(0.012, 0.014, 0.02);
 
 // ---- Finding the surface -------------------------------------------------------------------------------------
@@ -114,8 +114,8 @@ const NO_HIT: Hit = Hit(0.0, false, false);
 
 fn sample_ray(ray: Ray, t: f32) -> Sample {
     let raw = field_ray(ray.origin, ray.direction, t);
-    let value = clamp(raw.x - settings.level, -HUGE, HUGE);
-    let slope = select(clamp(raw.y, -HUGE, HUGE), 0.0, is_nan(raw.y));
+    let value = clamp(raw.x - settings.level, -LARGEST, LARGEST);
+    let slope = select(clamp(raw.y, -LARGEST, LARGEST), 0.0, is_nan(raw.y));
     return Sample(t, value, slope, !is_nan(raw.x));
 }
 
@@ -308,9 +308,9 @@ fn light_direction() -> vec3f {
 fn distance_estimate(jet: vec4f) -> f32 {
     let size = length3_safe(jet.xyz);
     if is_nan(jet.w) || is_nan(jet.x + jet.y + jet.z) || size <= 0.0 {
-        return HUGE;
+        return LARGEST;
     }
-    return min(abs(jet.w - settings.level) / size, HUGE);
+    return min(abs(jet.w - settings.level) / size, LARGEST);
 }
 
 // Openness of the surface to the sky, 0..1: the distance to the surface at a few points above it, compared with
@@ -334,10 +334,10 @@ fn openness(p: vec3f, n: vec3f, side: f32) -> f32 {
 // Light that reaches the eye from a surface of one colour: sky and ground light, a wrapped sun, and its highlight.
 fn lit(colour: vec3f, n: vec3f, v: vec3f, open: f32) -> vec3f {
     let l = light_direction();
-    let sky = mix(vec3f(0.30, 0.28, 0.26), vec3f(0.52, 0.55, 0.60), 0.5 + 0.5 * n.z);
-    let sun = vec3f(1.02, 0.98, 0.90) * wrap_diffuse(n, l, 0.45) * 0.80 * mix(1.0, open, 0.5);
-    let gloss = blinn_specular(n, l, v, 90.0) * 0.28 * open;
-    let rim = (schlick_fresnel(abs(dot(n, v)), 0.03) - 0.03) * 0.28 * open;
+    let sky = mix(vec3f(0.24, 0.21, 0.19), vec3f(0.36, 0.40, 0.46), 0.5 + 0.5 * n.z);
+    let sun = vec3f(1.06, 1.00, 0.91) * wrap_diffuse(n, l, 0.35) * mix(1.0, open, 0.6);
+    let gloss = blinn_specular(n, l, v, 110.0) * 0.30 * open;
+    let rim = (schlick_fresnel(abs(dot(n, v)), 0.03) - 0.03) * 0.30 * open;
     return colour * (sky * open + sun) + vec3f(gloss) + rim * settings.background;
 }
 
@@ -366,18 +366,24 @@ fn screen_distance(offset: f32, along: vec3f, n: vec3f, direction: vec3f, footpr
 }
 
 // Coverage by the edges of the box at a point of one of its faces.
-fn edge_coverage(p: vec3f, n: vec3f, direction: vec3f, footprint: f32, window: f32) -> f32 {
-    let gap = settings.box - abs(p - settings.center);
-    var covered = 0.0;
-    for (var axis = 0; axis < 3; axis++) {
-        if abs(n[axis]) < 0.5 {
-            var u = vec3f();
-            u[axis] = 1.0;
-            let away = screen_distance(max(gap[axis], 0.0), cross(n, u), n, direction, footprint);
-            covered = max(covered, line_coverage(away, settings.edge_width, window));
-        }
+fn edge_coverage(p: vec3f, n: vec3f, direction: vec3f, footprint: f32) -> f32 {
+    let gap = max(settings.box - abs(p - settings.center), vec3f(0.0));
+    return max(
+        edge_across(gap.x, vec3f(1.0, 0.0, 0.0), n, direction, footprint),
+        max(
+            edge_across(gap.y, vec3f(0.0, 1.0, 0.0), n, direction, footprint),
+            edge_across(gap.z, vec3f(0.0, 0.0, 1.0), n, direction, footprint),
+        ),
+    );
+}
+
+// Coverage by the edge at distance `gap` along the axis `u` in a face; none where `u` is the face's own normal.
+fn edge_across(gap: f32, u: vec3f, n: vec3f, direction: vec3f, footprint: f32) -> f32 {
+    if abs(dot(n, u)) > 0.5 {
+        return 0.0;
     }
-    return covered;
+    let away = screen_distance(gap, cross(n, u), n, direction, footprint);
+    return line_coverage(away, settings.edge_width, sample_window());
 }
 
 // What is drawn on a face: colour and opacity.
@@ -401,10 +407,10 @@ fn wall_at(p: vec3f, n: vec3f, direction: vec3f, footprint: f32, pixel: vec2f, b
         let opacity = select(0.12, 0.30, behind);
         return Wall(vec3f(0.45), opacity * hatch(pixel, 1.0, 7.0, 0.3, window));
     }
-    let value = clamp(jet.w - settings.level, -HUGE, HUGE);
+    let value = clamp(jet.w - settings.level, -LARGEST, LARGEST);
     let side = select(settings.outside, settings.inside, value < 0.0);
     if behind {
-        wall = Wall(mix(side, vec3f(1.0), 0.55), 0.30);
+        wall = Wall(mix(side, vec3f(1.0), 0.5), 0.22);
     }
     let flat = jet.xyz - n * dot(jet.xyz, n);
     let slope = length3_safe(flat);
@@ -416,24 +422,39 @@ fn wall_at(p: vec3f, n: vec3f, direction: vec3f, footprint: f32, pixel: vec2f, b
     let rate = 1.0 / max(screen_distance(1.0 / slope, along, n, direction, footprint), 1e-30);
     if settings.isoline_spacing > 0.0 {
         let covered = family_coverage(value, rate, window);
-        wall = paint(wall, mix(side, INK, 0.35), covered * select(0.0, 0.45, behind));
+        wall = paint(wall, mix(side, INK, 0.45), covered * select(0.0, 0.5, behind));
     }
     let away = min(abs(value) / max(rate, 1e-30), 1e9);
-    let crowded = smoothstep(1.0, 4.0, rate / max(settings.isoline_spacing, 1e-30)) * select(0.0, 1.0, settings.isoline_spacing > 0.0);
-    let level_line = line_coverage(away, 2.0 * settings.isoline_width, window) * (1.0 - crowded);
-    return paint(wall, INK, level_line * select(0.35, 0.85, behind));
+    let level_line = line_coverage(away, 2.0 * settings.isoline_width, window);
+    if level_line > 0.0 && is_zero_near(p - flat / slope * (value / slope), value) {
+        wall = paint(wall, INK, level_line * select(0.55, 0.85, behind));
+    }
+    return wall;
 }
 
-// Coverage by the isolines of the walls, fading to an even tone where they crowd.
+// Tells a zero from a pole by one Newton step, which ends at q: near a zero of order n it multiplies the value by
+// (1 - 1/n)^n < 1/e, near a pole of order n by (1 + 1/n)^-n > 1/e.
+fn is_zero_near(q: vec3f, value: f32) -> bool {
+    let next = field_grad(q).w - settings.level;
+    return is_finite(next) && abs(next) <= 0.36787944 * abs(value) + 1e-6 * abs(settings.level);
+}
+
+// Coverage by the isolines of the walls: lines at the multiples of 1, 5 and 25 spacings, each family vanishing
+// where its lines come closer than a few pixels.
 fn family_coverage(value: f32, rate: f32, window: f32) -> f32 {
-    let u = value / settings.isoline_spacing;
-    let lines = min(rate / settings.isoline_spacing, 1e9);
-    let duty = min(lines * settings.isoline_width, 1.0);
-    let dimming = min(1.0, 0.3 / max(lines * settings.isoline_width, 1e-20));
-    if !(abs(u) < 4194304.0) {
-        return duty * dimming;
+    var covered = 0.0;
+    var spacing = settings.isoline_spacing;
+    for (var k = 0; k < 3; k++) {
+        let u = value / spacing;
+        let lines = min(rate / spacing, 1e9);
+        // Past 2²² spacings f32 no longer resolves the place between two lines.
+        if abs(u) < 4194304.0 {
+            let sparse = 1.0 - smoothstep(0.10, 0.28, lines);
+            covered = max(covered, sparse * line_train(u, lines * settings.isoline_width, lines * window));
+        }
+        spacing *= 5.0;
     }
-    return line_train(u, duty, lines * window) * dimming;
+    return covered;
 }
 
 // The face of the box at distance t on the ray, over what lies behind it.
@@ -442,7 +463,7 @@ fn over_wall(under: vec3f, ray: Ray, t: f32, pixel: vec2f, pixel_slope: f32, beh
     let n = box_normal(p, settings.center, settings.box);
     let footprint = max(t * pixel_slope, 1e-30);
     let wall = wall_at(p, n, ray.direction, footprint, pixel, behind);
-    let edge = edge_coverage(p, n, ray.direction, footprint, sample_window());
+    let edge = edge_coverage(p, n, ray.direction, footprint);
     let colour = mix(under, wall.colour, wall.opacity * settings.wall_opacity);
     return mix(colour, INK, edge * select(0.8, 0.6, behind));
 }
@@ -464,7 +485,7 @@ fn ground_openness(p: vec3f) -> f32 {
     let reach = 0.30 * length(settings.box.xy);
     let q = clamp(p, settings.center - settings.box, settings.center + settings.box);
     let aside = distance(p, q);
-    let away = min(distance_estimate(field_grad(q)), 1e9) + aside;
+    let away = length(vec2f(min(distance_estimate(field_grad(q)), 1e9), 2.0 * aside));
     return 1.0 - settings.occlusion * (0.55 * exp2(-2.0 * away / reach) + 0.25 * exp2(-2.5 * aside / reach));
 }
 
@@ -512,7 +533,7 @@ fn camera_distance() -> f32 {
     if settings.distance > 0.0 {
         return settings.distance;
     }
-    return 1.06 * length(settings.box) / sin(0.5 * clamp(settings.fov, 1.0, 120.0) * DEGREE);
+    return 0.98 * length(settings.box) / sin(0.5 * clamp(settings.fov, 1.0, 120.0) * DEGREE);
 }
 
 fn camera_ray(pixel: vec2f) -> Ray {

@@ -17,7 +17,7 @@ fn offset_from_integer(u: f32) -> f32 {
 // is the mean, `duty`.
 fn line_train(u: f32, duty: f32, window: f32) -> f32 {
     let part = clamp(duty, 0.0, 1.0);
-    let w = clamp(window, 1e-6, 1.0);
+    let w = clamp(window, 1e-20, 1.0);
     let y = offset_from_integer(u);
     let covered = line_coverage(y, part, w) + line_coverage(y - 1.0, part, w) + line_coverage(y + 1.0, part, w);
     return clamp(covered, 0.0, 1.0);
@@ -25,7 +25,7 @@ fn line_train(u: f32, duty: f32, window: f32) -> f32 {
 
 // The sawtooth u - floor(u). `window` in periods; from one period on the result is the mean, 1/2.
 fn saw_train(u: f32, window: f32) -> f32 {
-    let w = clamp(window, 1e-6, 1.0);
+    let w = clamp(window, 1e-20, 1.0);
     let y = offset_from_integer(u);
     return y + clamp(0.5 - y / w, 0.0, 1.0);
 }
