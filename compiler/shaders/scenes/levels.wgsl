@@ -149,7 +149,7 @@ fn undefined_colour(pixel: vec2f) -> vec3f {
 
 fn infinite_colour(pixel: vec2f, t: f32) -> vec3f {
     let colour = palette_colour(t);
-    return mix(colour, mix(colour, vec3f(1.0), 0.25), hatch(pixel, -1.0, 7.0, 0.3, sample_window()));
+    return mix(colour, mix(colour, vec3f(1.0), 0.13), hatch(pixel, -1.0, 7.0, 0.3, sample_window()));
 }
 
 fn shade(pixel: vec2f) -> vec4f {
