@@ -327,7 +327,7 @@ def smooth_union(x, y, z):
 
     def blend(a, b):
         h = clamp((b - a) / (2 * k) + mp.mpf("0.5"), 0, 1)
-        return b + h * (a - b) - k * (h * (1 - h))
+        return b * (1 - h) + a * h - k * h * (1 - h)
 
     return blend(blend(ball("-0.75", 0, "0.5"), ball("0.75", 0, "0.5")), ball(0, "0.75", "0.625"))
 
