@@ -72,7 +72,11 @@ pub fn acosh(x: f64) -> f64 {
         return x.ln() + std::f64::consts::LN_2;
     }
     let t = x - 1.0;
-    (t + (t * (t + 2.0)).sqrt()).ln_1p()
+    if t < 0.0 {
+        f64::NAN
+    } else {
+        (t + (t * (t + 2.0)).sqrt()).ln_1p()
+    }
 }
 
 /// artanh x = sign(x) log1p(2|x| / (1 - |x|)) / 2, infinite at ±1, NaN beyond.
