@@ -1,1 +1,25 @@
-//! The compiler.
+//! From a formula to exact derivatives and GPU shaders.
+//!
+//! [`compile`] turns a text into a [`Program`]; a program gives scene modules, evaluation modules, an `f64`
+//! evaluator, and text in several shading languages. No input or output happens here, and nothing panics,
+//! whatever the text.
+
+pub mod check;
+pub mod derive;
+pub mod emit;
+pub mod eval;
+pub mod formula;
+pub mod ir;
+pub mod link;
+pub mod lower;
+pub mod module;
+pub mod program;
+pub mod reference;
+pub mod scene;
+mod simplify;
+pub mod table;
+pub mod types;
+
+pub use emit::{EmitWhat, Target};
+pub use module::{EvalModule, Evaluator, SceneModule, What};
+pub use program::{Compilation, ParamInfo, Picture, Program, SettingValue, compile, compile_bytes};

@@ -30,6 +30,14 @@ pub struct Exprs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ExprId(u32);
 
+impl ExprId {
+    /// Position in the arena.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 impl Exprs {
     /// Adds an expression.
     pub fn push(&mut self, expr: Expr, span: Span) -> ExprId {
@@ -48,6 +56,13 @@ impl Exprs {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
+    }
+
+    /// Every expression with its id, operands before their users.
+    pub fn iter(&self) -> impl Iterator<Item = (ExprId, &Expr, Span)> + '_ {
+        (0..)
+            .zip(&self.nodes)
+            .map(|(index, (expr, span))| (ExprId(index), expr, *span))
     }
 
     /// Where the expression stands in the text.
@@ -242,6 +257,46 @@ pub enum Expr {
         /// Local names in order.
         locals: Vec<(Name, ExprId)>,
     },
+}
+
+impl Expr {
+    /// Calls `visit` for each operand, in the order of the text.
+    pub fn for_each_child(&self, mut visit: impl FnMut(ExprId)) {
+        match self {
+            Self::Error | Self::Number(_) | Self::Imaginary(_) | Self::Name(_) => {}
+            Self::Unary { arg, .. } => visit(*arg),
+            Self::Binary { lhs, rhs, .. } => {
+                visit(*lhs);
+                visit(*rhs);
+            }
+            Self::Compare { first, rest } => {
+                visit(*first);
+                rest.iter().for_each(|step| visit(step.1));
+            }
+            Self::Call { args, .. } | Self::Vector(args) => args.iter().copied().for_each(visit),
+            Self::Member { base, .. } => visit(*base),
+            Self::If {
+                cond,
+                then,
+                otherwise,
+            } => {
+                visit(*cond);
+                visit(*then);
+                visit(*otherwise);
+            }
+            Self::Piecewise { arms, otherwise } => {
+                for &(cond, value) in arms {
+                    visit(cond);
+                    visit(value);
+                }
+                otherwise.iter().copied().for_each(visit);
+            }
+            Self::Where { body, locals } => {
+                visit(*body);
+                locals.iter().for_each(|local| visit(local.1));
+            }
+        }
+    }
 }
 
 /// Operators of one operand.

@@ -6,6 +6,17 @@
 pub mod ast;
 pub mod diagnostic;
 pub mod span;
+pub mod token;
+
+mod build;
+mod complaint;
+mod cursor;
+mod layout;
+mod parse;
+mod parser;
+mod scope;
+mod stray;
 
 pub use diagnostic::{Diagnostic, Severity};
+pub use parse::{Parsed, parse, parse_bytes};
 pub use span::Span;

@@ -1,0 +1,110 @@
+// Floating-point numbers as bit patterns, and arithmetic that survives a shader compiler.
+//
+// Drivers reassociate, contract and assume that NaN does not occur. So NaN is tested for and made by bits, signs are
+// moved by bits, and each rounding that a later step relies on is made opaque.
+
+/// A zero that no compiler can see: an odd square is 1 modulo 8, so bit 2 of it is never set. Xor with it hides where
+/// a value comes from, so that no algebra reaches across. One multiplication; make it once and use it often.
+fn hidden_zero(seed: f32) -> u32 {
+    let odd = bitcast<u32>(seed) | 1u;
+    return (odd * odd) & 4u;
+}
+
+/// v itself, cut off from the expression that gave it.
+fn opaque(v: f32, zero: u32) -> f32 {
+    return bitcast<f32>(bitcast<u32>(v) ^ zero);
+}
+
+/// |x|, also of NaN.
+fn magnitude(x: f32) -> f32 {
+    return bitcast<f32>(bitcast<u32>(x) & 0x7fffffffu);
+}
+
+/// The sign bit of x.
+fn sign_bit(x: f32) -> u32 {
+    return bitcast<u32>(x) & 0x80000000u;
+}
+
+/// v with its sign flipped where `sign` has the sign bit.
+fn flip_sign(v: f32, sign: u32) -> f32 {
+    return bitcast<f32>(bitcast<u32>(v) ^ sign);
+}
+
+/// |v| with the sign of s.
+fn with_sign(v: f32, s: f32) -> f32 {
+    return bitcast<f32>((bitcast<u32>(v) & 0x7fffffffu) | (bitcast<u32>(s) & 0x80000000u));
+}
+
+/// Whether x is NaN, by its bits.
+fn is_nan(x: f32) -> bool {
+    return (bitcast<u32>(x) & 0x7fffffffu) > 0x7f800000u;
+}
+
+/// Whether x is infinite, by its bits.
+fn is_infinite(x: f32) -> bool {
+    return (bitcast<u32>(x) & 0x7fffffffu) == 0x7f800000u;
+}
+
+/// Whether x is neither infinite nor NaN, by its bits.
+fn is_finite(x: f32) -> bool {
+    return (bitcast<u32>(x) & 0x7fffffffu) < 0x7f800000u;
+}
+
+/// A quiet NaN, whatever the seed: a constant would be folded and rejected.
+fn make_nan(seed: f32) -> f32 {
+    return bitcast<f32>(bitcast<u32>(seed) | 0x7fc00000u);
+}
+
+/// The infinity with the sign of the seed.
+fn make_infinity(seed: f32) -> f32 {
+    return bitcast<f32>((bitcast<u32>(seed) & 0x80000000u) | 0x7f800000u);
+}
+
+/// 2^n for n in [-126, 127].
+fn power_of_two(n: i32) -> f32 {
+    return bitcast<f32>(u32(n + 127) << 23u);
+}
+
+/// v 2^n for a normal v of modest size and |n| ≤ 250: overflow and underflow happen once, at the end.
+fn times_power_of_two(v: f32, n: i32) -> f32 {
+    let first = clamp(n, -100, 100);
+    let zero = hidden_zero(v);
+    return opaque(v * power_of_two(first), zero) * power_of_two(clamp(n - first, -126, 127));
+}
+
+/// The upper 32 bits of a b.
+fn multiply_high(a: u32, b: u32) -> u32 {
+    let a0 = a & 0xffffu;
+    let a1 = a >> 16u;
+    let b0 = b & 0xffffu;
+    let b1 = b >> 16u;
+    let middle = a1 * b0 + ((a0 * b0) >> 16u);
+    let other = a0 * b1 + (middle & 0xffffu);
+    return a1 * b1 + (middle >> 16u) + (other >> 16u);
+}
+
+/// The upper 12 bits of the significand of x: products of two such are exact, and so is x minus it.
+fn upper_half(x: f32) -> f32 {
+    return bitcast<f32>(bitcast<u32>(x) & 0xfffff000u);
+}
+
+/// a + b exactly, as rounded sum and its error (Knuth, TAOCP 2, 4.2.2).
+fn two_sum(a: f32, b: f32, zero: u32) -> vec2f {
+    let s = opaque(a + b, zero);
+    let t = opaque(s - a, zero);
+    let u = opaque(s - t, zero);
+    return vec2f(s, opaque(a - u, zero) + opaque(b - t, zero));
+}
+
+/// a b exactly, as rounded product and its error, where nothing underflows (Dekker 1971; split by masking).
+fn two_product(a: f32, b: f32, zero: u32) -> vec2f {
+    let p = opaque(a * b, zero);
+    let ah = upper_half(a);
+    let bh = upper_half(b);
+    let al = opaque(a - ah, zero);
+    let bl = opaque(b - bh, zero);
+    let e = opaque(opaque(ah * bh, zero) - p, zero);
+    let f = opaque(e + opaque(ah * bl, zero), zero);
+    let g = opaque(f + opaque(al * bh, zero), zero);
+    return vec2f(p, g + al * bl);
+}

@@ -1,0 +1,298 @@
+// Complex arithmetic, exponential, logarithm and powers; a number is vec2f(re, im). Branch cuts, signed zeros and
+// infinities after C99 Annex G.
+
+/// Whether a component is infinite: then the number is, whatever the other is (C99 G.3).
+fn complex_is_infinite(z: vec2f) -> bool {
+    return is_infinite(z.x) || is_infinite(z.y);
+}
+
+/// Whether a component is NaN.
+fn complex_has_nan(z: vec2f) -> bool {
+    return is_nan(z.x) || is_nan(z.y);
+}
+
+/// i z.
+fn complex_mul_i(z: vec2f) -> vec2f {
+    return vec2f(flip_sign(z.y, 0x80000000u), z.x);
+}
+
+/// -i z.
+fn complex_div_i(z: vec2f) -> vec2f {
+    return vec2f(z.y, flip_sign(z.x, 0x80000000u));
+}
+
+/// z w; an infinite factor gives an infinite product (C99 G.5.1). Error 2 ulp of the norm; a component that cancels
+/// has that error, not its own.
+fn complex_mul(z: vec2f, w: vec2f) -> vec2f {
+    let p = vec2f(z.x * w.x - z.y * w.y, z.x * w.y + z.y * w.x);
+    if is_nan(p.x) && is_nan(p.y) {
+        return complex_mul_special(z, w, p);
+    }
+    return p;
+}
+
+/// Infinite components become ±1, others ±0 (C99 G.5.1).
+fn complex_box(z: vec2f) -> vec2f {
+    return vec2f(
+        with_sign(select(0.0, 1.0, is_infinite(z.x)), z.x),
+        with_sign(select(0.0, 1.0, is_infinite(z.y)), z.y),
+    );
+}
+
+/// NaN components become 0.
+fn complex_without_nan(z: vec2f) -> vec2f {
+    return vec2f(select(z.x, 0.0, is_nan(z.x)), select(z.y, 0.0, is_nan(z.y)));
+}
+
+fn complex_mul_special(z: vec2f, w: vec2f, plain: vec2f) -> vec2f {
+    if complex_has_nan(z) && !complex_is_infinite(z) || complex_has_nan(w) && !complex_is_infinite(w) {
+        return plain;
+    }
+    var a = z;
+    var b = w;
+    if complex_is_infinite(a) {
+        a = complex_box(a);
+        b = complex_without_nan(b);
+    }
+    if complex_is_infinite(b) {
+        b = complex_box(b);
+        a = complex_without_nan(a);
+    }
+    // finite factors whose products overflow: their directions do not
+    a *= 1.0 / max(1.0, max(magnitude(a.x), magnitude(a.y)));
+    b *= 1.0 / max(1.0, max(magnitude(b.x), magnitude(b.y)));
+    return make_infinity(1.0) * vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
+
+/// z², each component to 2 ulp: (x - y)(x + y) + 2 i x y.
+fn complex_square(z: vec2f) -> vec2f {
+    let p = vec2f((z.x - z.y) * (z.x + z.y), 2.0 * z.x * z.y);
+    if is_nan(p.x) {
+        return complex_mul(z, z);
+    }
+    return p;
+}
+
+/// The exponent e of the larger component, 2^e ≤ max(|x|, |y|) < 2^(e+1), held within [-125, 126].
+fn complex_exponent(z: vec2f) -> i32 {
+    let bits = bitcast<u32>(max(magnitude(z.x), magnitude(z.y)));
+    return clamp(i32(bits >> 23u) - 127, -125, 126);
+}
+
+/// z / w for |w| ≠ 0: both scaled by powers of two, special values after C99 G.5.1.
+fn complex_div(z: vec2f, w: vec2f) -> vec2f {
+    let ez = complex_exponent(z);
+    let ew = complex_exponent(w);
+    let a = z * power_of_two(-ez);
+    let b = w * power_of_two(-ew);
+    let norm = b.x * b.x + b.y * b.y;
+    let q = vec2f(sum_of_products(a.x, b.x, a.y, b.y), sum_of_products(a.y, b.x, -a.x, b.y)) / norm;
+    if is_nan(q.x) || is_nan(q.y) || norm == 0.0 {
+        return complex_div_special(z, w);
+    }
+    let e = ez - ew;
+    return vec2f(times_power_of_two(q.x, e), times_power_of_two(q.y, e));
+}
+
+fn complex_div_special(z: vec2f, w: vec2f) -> vec2f {
+    let infinity = make_infinity(w.x);
+    if magnitude(w.x) == 0.0 && magnitude(w.y) == 0.0 {
+        return vec2f(infinity * z.x, infinity * z.y);
+    }
+    if complex_is_infinite(z) && is_finite(w.x) && is_finite(w.y) {
+        let a = complex_box(z);
+        let b = w * (1.0 / max(magnitude(w.x), magnitude(w.y)));
+        return make_infinity(1.0) * vec2f(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y);
+    }
+    if complex_is_infinite(w) && is_finite(z.x) && is_finite(z.y) {
+        return vec2f(0.0, 0.0);
+    }
+    return vec2f(make_nan(z.x), make_nan(z.y));
+}
+
+/// 1 / z, each component to 3 ulp.
+fn complex_inverse(z: vec2f) -> vec2f {
+    let e = complex_exponent(z);
+    let a = z * power_of_two(-e);
+    let norm = a.x * a.x + a.y * a.y;
+    if !(norm > 0.0) || !is_finite(norm) {
+        return complex_div_special(vec2f(1.0, 0.0), z);
+    }
+    let q = vec2f(a.x, -a.y) / norm;
+    return q * power_of_two(-e);
+}
+
+/// |z| without spurious overflow.
+fn complex_abs(z: vec2f) -> f32 {
+    return real_hypot(z.x, z.y);
+}
+
+/// The phase in [-π, π].
+fn complex_arg(z: vec2f) -> f32 {
+    return real_atan2(z.y, z.x);
+}
+
+/// a b + c d with one rounding or two, however much cancels: both products exact in pairs (Dekker 1971).
+fn sum_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
+    let zero = hidden_zero(a);
+    let p = two_product(a, b, zero);
+    let q = two_product(c, d, zero);
+    let s = two_sum(p.x, q.x, zero);
+    return s.x + (s.y + (p.y + q.y));
+}
+
+/// e^z; e^x may overflow where e^x cos y does not.
+fn complex_exp(z: vec2f) -> vec2f {
+    if magnitude(z.y) == 0.0 {
+        return vec2f(real_exp(z.x), z.y);
+    }
+    if !is_finite(z.x) || !is_finite(z.y) {
+        return complex_exp_special(z);
+    }
+    let wave = real_sincos(z.y);
+    let s = split_exponent(clamp(z.x, -150.0, 150.0));
+    let r = 1.0 + expm1_polynomial(s.x);
+    let n = i32(s.y);
+    return vec2f(times_power_of_two(r * wave.y, n), times_power_of_two(r * wave.x, n));
+}
+
+fn complex_exp_special(z: vec2f) -> vec2f {
+    if is_infinite(z.x) && sign_is_set(z.x) {
+        if !is_finite(z.y) {
+            return vec2f(0.0, 0.0);
+        }
+        let wave = real_sincos(z.y);
+        return vec2f(with_sign(0.0, wave.y), with_sign(0.0, wave.x));
+    }
+    if is_infinite(z.x) {
+        if !is_finite(z.y) {
+            return vec2f(z.x, make_nan(z.y));
+        }
+        let wave = real_sincos(z.y);
+        return vec2f(make_infinity(wave.y), make_infinity(wave.x));
+    }
+    return vec2f(make_nan(z.x), make_nan(z.y));
+}
+
+/// log z, cut along the negative axis. The real part keeps its relative accuracy near |z| = 1.
+fn complex_log(z: vec2f) -> vec2f {
+    return vec2f(log_hypot(z.x, z.y), real_atan2(z.y, z.x));
+}
+
+/// log √(x² + y²). Near the unit circle x² + y² - 1 = 2 d + d² + y² with the exact d = x - 1, summed in pairs (Kahan
+/// 1987; Hull, Fairgrieve, Tang 1994).
+fn log_hypot(x: f32, y: f32) -> f32 {
+    let a = max(magnitude(x), magnitude(y));
+    let b = min(magnitude(x), magnitude(y));
+    if is_infinite(x) || is_infinite(y) {
+        return make_infinity(1.0);
+    }
+    if is_nan(x) || is_nan(y) {
+        return make_nan(x);
+    }
+    let norm = a * a + b * b;
+    if a > 0.5 && a < 1.5 && norm > 0.5 && norm < 2.0 {
+        let zero = hidden_zero(x);
+        let d = opaque(a - 1.0, zero);
+        let dd = two_product(d, d, zero);
+        let bb = two_product(b, b, zero);
+        let s = two_sum(2.0 * d, bb.x, zero);
+        let t = two_sum(s.x, dd.x, zero);
+        return 0.5 * real_log1p(opaque(t.x, zero) + (opaque(t.y + s.y, zero) + (bb.y + dd.y)));
+    }
+    let e = complex_exponent(vec2f(a, b));
+    let v = vec2f(a, b) * power_of_two(-e);
+    let l = 0.5 * real_log(v.x * v.x + v.y * v.y);
+    return f32(e) * 0.693145751953125 + (l + f32(e) * 1.428606765330187e-06);
+}
+
+/// The root with positive real part, cut along the negative axis (Kahan 1987; C99 G.6.4.2).
+fn complex_sqrt(z: vec2f) -> vec2f {
+    if is_infinite(z.y) {
+        return vec2f(make_infinity(1.0), z.y);
+    }
+    if is_nan(z.x) {
+        return vec2f(make_nan(z.x), make_nan(z.x));
+    }
+    if is_infinite(z.x) {
+        let other = select(with_sign(0.0, z.y), make_nan(z.y), is_nan(z.y));
+        if sign_is_set(z.x) {
+            return vec2f(magnitude(other), make_infinity(z.y));
+        }
+        return vec2f(z.x, other);
+    }
+    if magnitude(z.x) == 0.0 && magnitude(z.y) == 0.0 {
+        return vec2f(0.0, z.y);
+    }
+    let half = complex_exponent(z) >> 1u; // an even power of two comes out of the root exactly
+    let a = vec2f(magnitude(z.x), magnitude(z.y)) * power_of_two(-2 * half);
+    let t = sqrt(0.5 * (a.x + sqrt(a.x * a.x + a.y * a.y)));
+    let u = 0.5 * a.y / t;
+    let back = power_of_two(half);
+    let negative = sign_is_set(z.x);
+    return vec2f(select(t, u, negative) * back, with_sign(select(u, t, negative) * back, z.y));
+}
+
+/// z^n by repeated squaring for |n| ≤ 64, else through `complex_pow`; z^0 = 1. Error about |n| ulp of the norm.
+fn complex_powi(z: vec2f, n: i32) -> vec2f {
+    var left = u32(abs(n));
+    if left == 0u {
+        return vec2f(1.0, 0.0);
+    }
+    if left > 64u {
+        return complex_pow_polar(z, vec2f(f32(n), 0.0));
+    }
+    // the squarings stay in range: |base| < 4, so |base|^64 < 2^128; the powers of two are counted apart
+    let e = complex_exponent(z);
+    var base = z * power_of_two(-e);
+    var exponent = e * i32(left);
+    var power = vec2f(1.0, 0.0);
+    var started = false;
+    for (var i = 0; i < 7; i++) {
+        if (left & 1u) == 1u {
+            if started {
+                power = complex_mul(power, base);
+            } else {
+                power = base;
+            }
+            started = true;
+        }
+        left = left >> 1u;
+        if left == 0u {
+            break;
+        }
+        base = complex_square(base);
+    }
+    if n < 0 {
+        power = complex_inverse(power);
+        exponent = -exponent;
+    }
+    exponent = clamp(exponent, -220, 220);
+    return vec2f(times_power_of_two(power.x, exponent), times_power_of_two(power.y, exponent));
+}
+
+/// z^w on the principal branch: w = 0 gives 1, a small integer w gives `complex_powi`, 0^w is 0 for Re w > 0 and infinite
+/// for Re w < 0 (NaN for the other w). Error about 1 + |w log z| ulp of the norm.
+fn complex_pow(z: vec2f, w: vec2f) -> vec2f {
+    if w.y == 0.0 && magnitude(w.x) <= 64.0 && floor(w.x) == w.x {
+        return complex_powi(z, i32(w.x));
+    }
+    return complex_pow_polar(z, w);
+}
+
+fn complex_pow_polar(z: vec2f, w: vec2f) -> vec2f {
+    if magnitude(z.x) == 0.0 && magnitude(z.y) == 0.0 {
+        if w.x > 0.0 {
+            return vec2f(0.0, 0.0);
+        }
+        if w.x < 0.0 {
+            return vec2f(make_infinity(1.0), select(make_nan(z.x), 0.0, w.y == 0.0));
+        }
+        return vec2f(make_nan(z.x), make_nan(z.x));
+    }
+    if w.y == 0.0 && z.y == 0.0 && z.x > 0.0 {
+        return vec2f(real_pow(z.x, w.x), 0.0);
+    }
+    let l = complex_log(z);
+    return complex_exp(vec2f(sum_of_products(w.x, l.x, -w.y, l.y), sum_of_products(w.x, l.y, w.y, l.x)));
+}

@@ -1,0 +1,170 @@
+// levels: a real function of the plane as a colour map with level lines of constant width on the screen.
+//
+// Settings:
+// | name         | type  | default          | range      | unit   | meaning |
+// | spacing      | f32   | 0                | 0..        | value  | between level lines; 0: a quarter of color_scale |
+// | color_scale  | f32   | 1                | >0         | value  | where the colour has gone 71 % of the way to its end |
+// | line_width   | f32   | 1.2              | 0..20      | pixels | of level lines |
+// | zero_width   | f32   | 2.6              | 0..20      | pixels | of the line f = 0; 0: like the others |
+// | line_opacity | f32   | 0.5              | 0..1       |        | of level lines |
+// | major        | u32   | 5                | 0..100     | lines  | every how many lines one is stronger; 0: none |
+// | palette      | u32   | 0                | 0..2       |        | 0 blue-white-red, 1 indigo to cream, 2 paper |
+// | ink          | vec3f | 0.010 0.012 0.02 | 0..1       | linear | colour of all lines |
+//
+// Colours are linear rgb. Undefined values (NaN) are a quiet grey hatch; +∞ and -∞ are the ends of the palette
+// with a hatch of the other slope. Where level lines come closer than they are wide they fade to an even tone, and
+// the colour to its mean over the pixel; the zero line fades where several level lines share a pixel, because
+// there a zero cannot be told from a pole.
+
+struct View {
+    center: vec2f,     // world coordinates of the centre of the whole image
+    size: vec2f,       // whole image, pixels
+    tile: vec2f,       // pixel of the whole image at this tile's top-left corner
+    pixel: f32,        // world units per pixel
+    time: f32,         // seconds
+    samples: u32,      // supersamples per axis, >= 1
+    zero: u32,         // always 0, but the shader compiler does not know
+    tile_size: vec2u,  // this tile, pixels
+}
+
+struct Settings {
+    spacing: f32,
+    color_scale: f32,
+    line_width: f32,
+    zero_width: f32,
+    line_opacity: f32,
+    major: u32,
+    palette: u32,
+    ink: vec3f,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
+@group(0) @binding(2) var<uniform> settings: Settings;
+
+// (∂f/∂x, ∂f/∂y, f)
+fn field_grad(p: vec2f) -> vec3f { return vec3f(); }
+
+fn is_nan(x: f32) -> bool { return false; }
+fn is_inf(x: f32) -> bool { return false; }
+fn length2_safe(v: vec2f) -> f32 { return 0.0; }
+fn diverging_ramp(t: f32) -> vec3f { return vec3f(); }
+fn sequential_ramp(t: f32) -> vec3f { return vec3f(); }
+fn line_coverage(offset: f32, width: f32, window: f32) -> f32 { return 0.0; }
+fn line_train(u: f32, duty: f32, window: f32) -> f32 { return 0.0; }
+fn hatch(pixel: vec2f, slope: f32, period: f32, duty: f32, window: f32) -> f32 { return 0.0; }
+
+// Level lines may darken an area by no more than this on average, however dense they are.
+const DENSEST: f32 = 0.34;
+
+fn world_from_pixel(pixel: vec2f) -> vec2f {
+    return view.center + (pixel - 0.5 * view.size) * vec2f(view.pixel, -view.pixel);
+}
+
+// Side of one sample's share of a pixel, in pixels: the window of every filter here.
+fn sample_window() -> f32 {
+    return 1.0 / f32(max(view.samples, 1u));
+}
+
+// The real line onto (-1, 1): f/√(1 + f²) in units of color_scale.
+fn saturate_value(value: f32) -> f32 {
+    let x = clamp(value / max(settings.color_scale, 1e-37), -1e18, 1e18);
+    return x * inverseSqrt(1.0 + x * x);
+}
+
+// Colour of a saturated value in [-1, 1].
+fn palette_colour(t: f32) -> vec3f {
+    switch settings.palette {
+        case 1u: { return sequential_ramp(0.5 + 0.5 * t); }
+        case 2u: { return vec3f(0.93, 0.92, 0.89) - 0.10 * max(-t, 0.0) * vec3f(1.0, 0.7, 0.45); }
+        default: { return diverging_ramp(t); }
+    }
+}
+
+// Mean colour where the value runs linearly over value ± reach. The part beyond ±8 color_scale has the end colours;
+// the rest is integrated by the four-point Gauss rule.
+fn mean_colour(value: f32, reach: f32) -> vec3f {
+    let scale = max(settings.color_scale, 1e-37);
+    if reach < 0.05 * scale {
+        return palette_colour(saturate_value(value));
+    }
+    let x = clamp(value / scale, -1e18, 1e18);
+    let r = clamp(reach / scale, 0.01, 1e18);
+    let low = clamp(x - r, -8.0, 8.0);
+    let high = clamp(x + r, -8.0, 8.0);
+    let below = clamp((-8.0 - (x - r)) / (2.0 * r), 0.0, 1.0);
+    let above = clamp(((x + r) - 8.0) / (2.0 * r), 0.0, 1.0);
+    let middle = 0.5 * (low + high) * scale;
+    let arm = 0.5 * (high - low) * scale;
+    let inner = 0.1739274225687269 * (ramp_at(middle - 0.8611363115940526 * arm) + ramp_at(middle + 0.8611363115940526 * arm))
+        + 0.3260725774312731 * (ramp_at(middle - 0.3399810435848563 * arm) + ramp_at(middle + 0.3399810435848563 * arm));
+    return below * palette_colour(-1.0) + above * palette_colour(1.0) + max(1.0 - below - above, 0.0) * inner;
+}
+
+fn ramp_at(value: f32) -> vec3f {
+    return palette_colour(saturate_value(value));
+}
+
+fn level_spacing() -> f32 {
+    return max(select(0.25 * settings.color_scale, settings.spacing, settings.spacing > 0.0), 1e-37);
+}
+
+// Coverage by lines at the multiples of `spacing`. `rate` is the change of value per pixel.
+fn level_lines(value: f32, rate: f32, spacing: f32, width: f32) -> f32 {
+    let u = value / spacing;
+    let lines_per_pixel = min(rate / spacing, 1e9);
+    let duty = min(lines_per_pixel * width, 1.0);
+    let dimming = min(1.0, DENSEST / max(lines_per_pixel * width, 1e-20));
+    // Past 2²² spacings f32 no longer resolves the place between two lines.
+    if abs(u) > 4194304.0 || is_inf(u) {
+        return duty * dimming;
+    }
+    return line_train(u, duty, lines_per_pixel * sample_window()) * dimming;
+}
+
+// Coverage by the line f = 0.
+fn zero_line(value: f32, rate: f32) -> f32 {
+    let lines_per_pixel = rate / level_spacing();
+    if rate <= 0.0 || lines_per_pixel > 4.0 {
+        return 0.0;
+    }
+    let offset = min(abs(value) / rate, 1e9);
+    return line_coverage(offset, settings.zero_width, sample_window()) * (1.0 - smoothstep(1.0, 4.0, lines_per_pixel));
+}
+
+// All lines together, as opacity of the ink.
+fn line_opacity(value: f32, rate: f32) -> f32 {
+    let spacing = level_spacing();
+    var opacity = settings.line_opacity * level_lines(value, rate, spacing, settings.line_width);
+    if settings.major > 0u {
+        let strong = level_lines(value, rate, spacing * f32(settings.major), 1.5 * settings.line_width);
+        opacity = max(opacity, min(1.5 * settings.line_opacity, 1.0) * strong);
+    }
+    return max(opacity, zero_line(value, rate));
+}
+
+fn undefined_colour(pixel: vec2f) -> vec3f {
+    return mix(vec3f(0.60), vec3f(0.47), hatch(pixel, 1.0, 7.0, 0.3, sample_window()));
+}
+
+fn infinite_colour(pixel: vec2f, t: f32) -> vec3f {
+    let colour = palette_colour(t);
+    return mix(colour, mix(colour, vec3f(1.0), 0.13), hatch(pixel, -1.0, 7.0, 0.3, sample_window()));
+}
+
+fn shade(pixel: vec2f) -> vec4f {
+    let jet = field_grad(world_from_pixel(pixel));
+    let value = jet.z;
+    if is_nan(value) {
+        return vec4f(undefined_colour(pixel), 1.0);
+    }
+    if is_inf(value) {
+        return vec4f(infinite_colour(pixel, sign(value)), 1.0);
+    }
+    if is_nan(jet.x) || is_nan(jet.y) {
+        return vec4f(palette_colour(saturate_value(value)), 1.0);
+    }
+    let rate = min(length2_safe(jet.xy), 1e37) * view.pixel;
+    let colour = mean_colour(value, 0.5 * rate * sample_window());
+    return vec4f(mix(colour, settings.ink, line_opacity(value, rate)), 1.0);
+}

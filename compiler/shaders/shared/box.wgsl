@@ -1,0 +1,26 @@
+// Axis-aligned boxes, given by centre and half size.
+
+// Parameters at which a ray enters and leaves the box (x and y); x > y where it misses. The slab method (Kay and
+// Kajiya 1986); a direction component of 0 is replaced by a tiny one, so no 0 · ∞ arises.
+fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f {
+    let tiny = select(vec3f(1e-12), vec3f(-1e-12), direction < vec3f(0.0));
+    let rate = 1.0 / select(direction, tiny, abs(direction) < vec3f(1e-12));
+    let middle = (center - origin) * rate;
+    let reach = abs(half_size * rate);
+    let enter = middle - reach;
+    let leave = middle + reach;
+    return vec2f(max(enter.x, max(enter.y, enter.z)), min(leave.x, min(leave.y, leave.z)));
+}
+
+// Outward unit normal of the face that a point of the box's surface lies on.
+fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f {
+    let q = (p - center) / max(half_size, vec3f(1e-20));
+    let a = abs(q);
+    if a.x >= a.y && a.x >= a.z {
+        return vec3f(sign(q.x), 0.0, 0.0);
+    }
+    if a.y >= a.z {
+        return vec3f(0.0, sign(q.y), 0.0);
+    }
+    return vec3f(0.0, 0.0, sign(q.z));
+}

@@ -1,0 +1,21 @@
+// Reflection of light by a surface with unit normal `n`; `l` points to the light and `v` to the viewer.
+
+// Wrapped Lambert: 1 facing the light, falling to 0 only where n·l = -wrap; wrap = 0 is Lambert, 1 is
+// half-Lambert without its square.
+fn wrap_diffuse(n: vec3f, l: vec3f, wrap: f32) -> f32 {
+    return max(dot(n, l) + wrap, 0.0) / (1.0 + wrap);
+}
+
+// Blinn's highlight (1977), 1 at its centre.
+fn blinn_specular(n: vec3f, l: vec3f, v: vec3f, exponent: f32) -> f32 {
+    let sum = l + v;
+    let middle = sum / max(length(sum), 1e-6);
+    return pow(max(dot(n, middle), 1e-6), exponent);
+}
+
+// Schlick's approximation (1994) of the Fresnel reflectance, with `f0` at normal incidence.
+fn schlick_fresnel(cosine: f32, f0: f32) -> f32 {
+    let c = clamp(1.0 - cosine, 0.0, 1.0);
+    let c2 = c * c;
+    return f0 + (1.0 - f0) * c2 * c2 * c;
+}

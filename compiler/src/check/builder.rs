@@ -1,0 +1,309 @@
+//! Building the IR of an expression, with types.
+
+use pullback_grammar::ast::{Expr, ExprId, File, Function, Name};
+use pullback_grammar::{Diagnostic, Span};
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+
+use super::symbols::Symbols;
+use super::{Value, library, named_constant};
+use crate::ir::{Graph, Id, Op, Prim, Ty};
+use crate::types::Type;
+
+/// Greatest depth of nested expressions, those of called functions included.
+pub const MAX_DEPTH: usize = 1000;
+
+/// Which text an expression belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Source {
+    /// The user's program.
+    Program,
+    /// The library written in the language.
+    Library,
+}
+
+/// Builds expressions into one graph, and collects what is wrong with them.
+#[derive(Debug)]
+pub struct Builder<'a> {
+    /// The graph.
+    pub graph: Graph,
+    /// What was found.
+    pub diagnostics: Vec<Diagnostic>,
+    pub(super) symbols: &'a Symbols<'a>,
+    pub(super) file: &'a File,
+    pub(super) source: Source,
+    pub(super) scope: Vec<(&'a str, Value)>,
+    pub(super) depth: usize,
+    /// Functions and constants whose values are being built.
+    pub(super) active: Vec<&'a str>,
+    pub(super) calls: FxHashMap<(Source, &'a str, Vec<Value>), Value>,
+    constants: FxHashMap<&'a str, Value>,
+    program: &'a File,
+}
+
+impl<'a> Builder<'a> {
+    /// A builder for expressions of a program.
+    #[must_use]
+    pub fn new(program: &'a File, symbols: &'a Symbols<'a>) -> Self {
+        Self {
+            graph: Graph::new(),
+            diagnostics: Vec::new(),
+            symbols,
+            file: program,
+            source: Source::Program,
+            scope: Vec::new(),
+            depth: 0,
+            active: Vec::new(),
+            calls: FxHashMap::default(),
+            constants: FxHashMap::default(),
+            program,
+        }
+    }
+
+    /// Reports a problem; the value is then an error, which is not reported again.
+    pub fn report(&mut self, problem: Diagnostic) -> Value {
+        self.diagnostics.push(problem);
+        Value::Error
+    }
+
+    /// Defines a name for what is built next, such as an input of a formula.
+    pub fn define(&mut self, name: &'a str, value: Value) {
+        self.scope.push((name, value));
+    }
+
+    /// Builds an expression of the current text.
+    pub fn expr(&mut self, id: ExprId) -> Value {
+        if self.graph.budget().is_err() {
+            return Value::Error;
+        }
+        if self.depth >= MAX_DEPTH {
+            let span = self.file.exprs.span(id);
+            return self.report(
+                Diagnostic::error(
+                    "too-deep",
+                    span,
+                    format!("expressions and calls are nested more than {MAX_DEPTH} deep"),
+                )
+                .with_hint("name parts of the formula with `where`"),
+            );
+        }
+        self.depth += 1;
+        let value = self.nested(id);
+        self.depth -= 1;
+        value
+    }
+
+    fn nested(&mut self, id: ExprId) -> Value {
+        let file = self.file;
+        let span = file.exprs.span(id);
+        match &file.exprs[id] {
+            Expr::Error => Value::Error,
+            Expr::Number(value) => Value::Scalar(self.graph.real(*value)),
+            Expr::Imaginary(value) => Value::Scalar(self.graph.complex(0.0, *value)),
+            Expr::Name(name) => self.name(name),
+            Expr::Binary { .. } => self.chain(id),
+            Expr::Unary { op, arg } => {
+                let value = self.expr(*arg);
+                self.unary(*op, &value, span)
+            }
+            Expr::Compare { first, rest } => self.comparison(*first, rest),
+            Expr::Call { callee, primes, args } => self.call(callee, *primes, args, span),
+            Expr::Member { base, field } => self.swizzle(*base, field),
+            Expr::Vector(items) => self.vector(items),
+            Expr::If { cond, then, otherwise } => {
+                self.choice(&[(*cond, *then)], Some(*otherwise), span)
+            }
+            Expr::Piecewise { arms, otherwise } => self.choice(arms, *otherwise, span),
+            Expr::Where { body, locals } => self.locals(*body, locals),
+        }
+    }
+
+    /// A left-leaning chain of binary operators, without recursion along the chain.
+    fn chain(&mut self, id: ExprId) -> Value {
+        let file = self.file;
+        let mut links = Vec::new();
+        let mut first = id;
+        while let Expr::Binary { op, lhs, rhs } = &file.exprs[first] {
+            links.push((first, *op, *rhs));
+            first = *lhs;
+        }
+        let mut value = self.expr(first);
+        while let Some((node, op, rhs)) = links.pop() {
+            let right = self.expr(rhs);
+            value = self.binary(op, &value, &right, file.exprs.span(node));
+        }
+        value
+    }
+
+    fn locals(&mut self, body: ExprId, locals: &'a [(Name, ExprId)]) -> Value {
+        let depth = self.scope.len();
+        for (name, value) in locals {
+            let value = self.expr(*value);
+            self.name_value(&name.text, &value);
+            self.scope.push((&name.text, value));
+        }
+        let value = self.expr(body);
+        self.scope.truncate(depth);
+        value
+    }
+
+    /// Remembers the user's name for a computed value.
+    pub fn name_value(&mut self, name: &str, value: &Value) {
+        if self.source != Source::Program {
+            return;
+        }
+        let computed = |g: &Graph, id: Id| matches!(g.node(id).op, Op::Apply(_));
+        match value {
+            Value::Scalar(id) if computed(&self.graph, *id) => self.graph.set_name(*id, name),
+            Value::Vector(items) => {
+                for (&id, letter) in items.iter().zip(["x", "y", "z", "w"]) {
+                    if computed(&self.graph, id) {
+                        self.graph.set_name(id, &format!("{name}_{letter}"));
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn name(&mut self, name: &'a Name) -> Value {
+        let text = name.text.as_str();
+        if let Some((_, value)) = self.scope.iter().rev().find(|(n, _)| *n == text) {
+            return value.clone();
+        }
+        if self.source == Source::Program {
+            if let Some(&(index, _)) = self.symbols.params.get(text) {
+                return Value::Scalar(self.graph.leaf(Op::Param(index), Ty::Real));
+            }
+            if let Some(constant) = self.symbols.constants.get(text) {
+                return self.constant(text, constant.value);
+            }
+        }
+        match text {
+            "i" => Value::Scalar(self.graph.complex(0.0, 1.0)),
+            "time" => Value::Scalar(self.graph.leaf(Op::Time, Ty::Real)),
+            "pixel" => Value::Scalar(self.graph.leaf(Op::Pixel, Ty::Real)),
+            "true" | "false" => Value::Scalar(self.graph.truth(text == "true")),
+            // names without a meaning have been reported by the pass over names
+            _ => named_constant(text)
+                .map_or(Value::Error, |value| Value::Scalar(self.graph.real(value))),
+        }
+    }
+
+    fn constant(&mut self, name: &'a str, body: ExprId) -> Value {
+        if let Some(value) = self.constants.get(name) {
+            return value.clone();
+        }
+        if self.active.contains(&name) {
+            return Value::Error;
+        }
+        let value = self.outside(name, Source::Program, Vec::new(), body);
+        self.name_value(name, &value);
+        self.constants.insert(name, value.clone());
+        value
+    }
+
+    /// Builds the body of a definition in a scope of its own.
+    pub(super) fn outside(
+        &mut self,
+        name: &'a str,
+        source: Source,
+        scope: Vec<(&'a str, Value)>,
+        body: ExprId,
+    ) -> Value {
+        let file = match source {
+            Source::Program => self.program,
+            Source::Library => library::file(),
+        };
+        let file = std::mem::replace(&mut self.file, file);
+        let source = std::mem::replace(&mut self.source, source);
+        let scope = std::mem::replace(&mut self.scope, scope);
+        self.active.push(name);
+        let value = self.expr(body);
+        self.active.pop();
+        (self.file, self.source, self.scope) = (file, source, scope);
+        value
+    }
+
+    fn vector(&mut self, items: &'a [ExprId]) -> Value {
+        let mut ids: SmallVec<[Id; 4]> = SmallVec::new();
+        let mut failed = false;
+        for &item in items {
+            let value = self.expr(item);
+            match value.ty(&self.graph) {
+                Some(Type::Real) => ids.extend(value.ids()),
+                Some(ty) => {
+                    let span = self.file.exprs.span(item);
+                    self.report(
+                        Diagnostic::error(
+                            "type-mismatch",
+                            span,
+                            format!("a component of a vector is real, found {ty}"),
+                        )
+                        .with_label(format!("this is {ty}")),
+                    );
+                    failed = true;
+                }
+                None => failed = true,
+            }
+        }
+        if failed { Value::Error } else { Value::Vector(ids) }
+    }
+
+    fn swizzle(&mut self, base: ExprId, field: &'a Name) -> Value {
+        let value = self.expr(base);
+        let items = match &value {
+            Value::Error => return Value::Error,
+            Value::Vector(items) => items.clone(),
+            Value::Scalar(_) => {
+                let Some(ty) = value.ty(&self.graph) else { return Value::Error };
+                let problem = Diagnostic::error(
+                    "bad-swizzle",
+                    field.span,
+                    format!("only vectors have components, this is {ty}"),
+                );
+                return self.report(if ty == Type::Complex {
+                    problem.with_hint("the parts of a complex number are re(z) and im(z)")
+                } else {
+                    problem
+                });
+            }
+        };
+        let mut ids: SmallVec<[Id; 4]> = SmallVec::new();
+        for letter in field.text.chars() {
+            let index = "xyzw".find(letter).or_else(|| "rgba".find(letter));
+            match index.and_then(|k| items.get(k)) {
+                Some(&id) => ids.push(id),
+                None => return self.bad_swizzle(field, letter, items.len()),
+            }
+        }
+        match ids.as_slice() {
+            [id] => Value::Scalar(*id),
+            [_, _] | [_, _, _] | [_, _, _, _] => Value::Vector(ids),
+            _ => self.bad_swizzle(field, ' ', items.len()),
+        }
+    }
+
+    fn bad_swizzle(&mut self, field: &Name, letter: char, size: usize) -> Value {
+        let known = &"xyzw"[..size.min(4)];
+        let message = if letter == ' ' {
+            format!("`.{}` has more than four letters", field.text)
+        } else {
+            format!("a vec{size} has no component `{letter}`")
+        };
+        self.report(
+            Diagnostic::error("bad-swizzle", field.span, message)
+                .with_hint(format!("components are named with the letters {known}")),
+        )
+    }
+
+    /// The function of the program with this name.
+    pub(super) fn user_function(&self, name: &str) -> Option<&'a Function> {
+        (self.source == Source::Program).then(|| self.symbols.functions.get(name).copied()).flatten()
+    }
+
+    /// Where an expression of the current text stands, in the user's text.
+    pub(super) fn span(&self, id: ExprId) -> Span {
+        self.file.exprs.span(id)
+    }
+}

@@ -1,0 +1,58 @@
+//! From the syntax tree to the IR: names, types, and the pictures that a program shows.
+
+mod builder;
+mod builtins;
+mod call;
+mod library;
+mod names;
+mod operators;
+mod suggest;
+mod symbols;
+mod value;
+
+pub use builder::{Builder, Source};
+pub use builtins::{Builtin, builtins};
+pub use library::{LibraryFunction, library_functions};
+pub use names::{check_names, free_variables};
+pub use suggest::nearest;
+pub use symbols::Symbols;
+pub use value::Value;
+
+use crate::table;
+
+/// Whether a name is a function of the language without being defined in the program.
+#[must_use]
+pub fn is_builtin_function(name: &str) -> bool {
+    table::by_name(name).is_some()
+        || builtins::by_name(name).is_some()
+        || library::by_name(name).is_some()
+        || is_reserved_function(name)
+}
+
+/// Names of functions that the language reserves and does not have yet.
+#[must_use]
+pub fn is_reserved_function(name: &str) -> bool {
+    matches!(name, "sum" | "product" | "iterate" | "diff" | "grad" | "integral")
+}
+
+/// The value of a named constant of the language.
+#[must_use]
+pub fn named_constant(name: &str) -> Option<f64> {
+    Some(match name {
+        "pi" | "π" => std::f64::consts::PI,
+        "tau" | "τ" => std::f64::consts::TAU,
+        // (1 + √5)/2
+        "phi" | "φ" => 1.618_033_988_749_895,
+        "e" => std::f64::consts::E,
+        "inf" | "∞" => f64::INFINITY,
+        "nan" => f64::NAN,
+        _ => return None,
+    })
+}
+
+/// Whether a name means something without being defined: constants, the imaginary unit, the clock and the
+/// footprint.
+#[must_use]
+pub fn is_builtin_value(name: &str) -> bool {
+    named_constant(name).is_some() || matches!(name, "i" | "time" | "pixel" | "true" | "false")
+}

@@ -1,0 +1,318 @@
+//! Operators: which types they take, and what they build.
+
+use pullback_grammar::ast::{BinaryOp, CompareOp, ExprId, UnaryOp};
+use pullback_grammar::{Diagnostic, Span};
+use smallvec::SmallVec;
+
+use super::builtins::length;
+use super::{Builder, Value};
+use crate::ir::{Id, Prim, Ty};
+use crate::types::Type;
+
+impl<'a> Builder<'a> {
+    pub(super) fn unary(&mut self, op: UnaryOp, value: &Value, span: Span) -> Value {
+        match op {
+            UnaryOp::Neg => self.map(Prim::Neg, std::slice::from_ref(value), span),
+            UnaryOp::Sqrt => self.map(Prim::Sqrt, std::slice::from_ref(value), span),
+            UnaryOp::Abs => length(self, value, span),
+            UnaryOp::Factorial => {
+                let one = Value::Scalar(self.graph.real(1.0));
+                let shifted = self.arithmetic(Prim::Add, value, &one, span);
+                self.map(Prim::Gamma, &[shifted], span)
+            }
+            UnaryOp::Not => match value {
+                Value::Scalar(id) if self.graph.ty(*id) == Ty::Bool => {
+                    Value::Scalar(self.graph.apply(Prim::Not, &[*id]))
+                }
+                _ => self.condition_expected(value, span),
+            },
+        }
+    }
+
+    pub(super) fn binary(&mut self, op: BinaryOp, a: &Value, b: &Value, span: Span) -> Value {
+        let prim = match op {
+            BinaryOp::Add => Prim::Add,
+            BinaryOp::Sub => Prim::Sub,
+            BinaryOp::Mul | BinaryOp::ImplicitMul => Prim::Mul,
+            BinaryOp::Div => Prim::Div,
+            BinaryOp::Pow => Prim::Pow,
+            BinaryOp::And => return self.logic(Prim::And, a, b, span),
+            BinaryOp::Or => return self.logic(Prim::Or, a, b, span),
+        };
+        self.arithmetic(prim, a, b, span)
+    }
+
+    /// Sum, difference, product, quotient or power, by components on vectors.
+    pub fn arithmetic(&mut self, prim: Prim, a: &Value, b: &Value, span: Span) -> Value {
+        self.map(prim, &[a.clone(), b.clone()], span)
+    }
+
+    fn logic(&mut self, prim: Prim, a: &Value, b: &Value, span: Span) -> Value {
+        for value in [a, b] {
+            match value {
+                Value::Error => return Value::Error,
+                Value::Scalar(id) if self.graph.ty(*id) == Ty::Bool => {}
+                _ => return self.condition_expected(value, span),
+            }
+        }
+        match (a, b) {
+            (Value::Scalar(a), Value::Scalar(b)) => Value::Scalar(self.graph.apply(prim, &[*a, *b])),
+            _ => Value::Error,
+        }
+    }
+
+    fn condition_expected(&mut self, value: &Value, span: Span) -> Value {
+        let Some(ty) = value.ty(&self.graph) else { return Value::Error };
+        self.report(
+            Diagnostic::error("condition-not-bool", span, format!("expected a condition, found {ty}"))
+                .with_label(format!("this is {ty}"))
+                .with_hint("write a comparison such as x > 0"),
+        )
+    }
+
+    /// Applies a primitive to numbers; where an argument is a vector, to each component, scalars being repeated.
+    pub fn map(&mut self, prim: Prim, args: &[Value], span: Span) -> Value {
+        let mut size = None;
+        for arg in args {
+            match arg {
+                Value::Error => return Value::Error,
+                Value::Scalar(_) => {}
+                Value::Vector(items) => match size {
+                    Some(n) if n != items.len() => return self.mismatched(prim, args, span),
+                    _ => size = Some(items.len()),
+                },
+            }
+        }
+        let Some(size) = size else {
+            let ids: SmallVec<[Id; 4]> = args.iter().flat_map(Value::ids).collect();
+            return self.scalar(prim, &ids, args, span);
+        };
+        let mut out = SmallVec::new();
+        for k in 0..size {
+            let ids: SmallVec<[Id; 4]> = args
+                .iter()
+                .map(|arg| match arg {
+                    Value::Vector(items) => items[k],
+                    _ => arg.ids()[0],
+                })
+                .collect();
+            match self.scalar(prim, &ids, args, span) {
+                Value::Scalar(id) if self.graph.ty(id) == Ty::Real => out.push(id),
+                Value::Error => return Value::Error,
+                _ => return self.mismatched(prim, args, span),
+            }
+        }
+        Value::Vector(out)
+    }
+
+    fn scalar(&mut self, prim: Prim, ids: &[Id], args: &[Value], span: Span) -> Value {
+        let row = crate::table::row(prim);
+        let complex = ids.iter().any(|&id| self.graph.ty(id) == Ty::Complex);
+        let boolean = ids.iter().any(|&id| self.graph.ty(id) == Ty::Bool);
+        let accepts_complex = row.typing.mixes_real_and_complex()
+            || matches!(row.typing, crate::table::Typing::Analytic(_));
+        if boolean || (complex && !accepts_complex) {
+            return self.mismatched(prim, args, span);
+        }
+        let id = self.graph.apply(prim, ids);
+        self.warn_of_nan(prim, ids, id, span);
+        Value::Scalar(id)
+    }
+
+    /// Warns where a constant real argument lies outside of the domain.
+    fn warn_of_nan(&mut self, prim: Prim, ids: &[Id], result: Id, span: Span) {
+        let constants: Option<Vec<f64>> = ids.iter().map(|&id| self.graph.as_real(id)).collect();
+        let (Some(args), Some(value)) = (constants, self.graph.as_real(result)) else { return };
+        if value.is_nan() && args.iter().all(|x| !x.is_nan()) {
+            let row = crate::table::row(prim);
+            let name = row.names.first().copied().unwrap_or(row.usage);
+            let shown: Vec<String> = args.iter().map(f64::to_string).collect();
+            let problem = Diagnostic::warning(
+                "outside-domain",
+                span,
+                format!("`{name}` of the real {} is not a number", shown.join(", ")),
+            );
+            self.diagnostics.push(if row.complex.is_some() && args.len() == 1 {
+                problem.with_hint(format!("for the complex value write {name}({} + 0i)", shown[0]))
+            } else {
+                problem
+            });
+        }
+    }
+
+    fn mismatched(&mut self, prim: Prim, args: &[Value], span: Span) -> Value {
+        let tys: Vec<Type> = args.iter().filter_map(|a| a.ty(&self.graph)).collect();
+        if tys.len() != args.len() {
+            return Value::Error;
+        }
+        let row = crate::table::row(prim);
+        let shown: Vec<String> = tys.iter().map(Type::to_string).collect();
+        let name = row.names.first().copied().unwrap_or(row.usage);
+        let problem = Diagnostic::error(
+            "type-mismatch",
+            span,
+            format!("`{name}` does not take {}", shown.join(" and ")),
+        );
+        let vectors: Vec<&Type> = tys.iter().filter(|t| matches!(t, Type::Vector(_))).collect();
+        let problem = if tys.contains(&Type::Bool) {
+            problem.with_hint("a condition is not a number: write if … then 1 else 0")
+        } else if vectors.len() > 1 && vectors.iter().any(|t| *t != vectors[0]) {
+            problem.with_hint("vectors must have the same number of components; a swizzle such as p.xy shortens one")
+        } else if tys.contains(&Type::Complex) && !vectors.is_empty() {
+            problem.with_hint("a vector has real components: take re(…) or im(…) of the complex number")
+        } else {
+            problem
+                .with_label("takes reals only")
+                .with_hint("take re(…), im(…) or abs(…) of the complex number")
+        };
+        self.report(problem)
+    }
+
+    pub(super) fn comparison(&mut self, first: ExprId, rest: &'a [(CompareOp, ExprId)]) -> Value {
+        let mut left = self.expr(first);
+        let mut left_span = self.span(first);
+        let mut all: Option<Id> = None;
+        let mut failed = false;
+        for &(op, right) in rest {
+            let span = left_span.join(self.span(right));
+            left_span = self.span(right);
+            let right = self.expr(right);
+            match self.compare(op, &left, &right, span) {
+                Value::Scalar(step) => {
+                    all = Some(match all {
+                        Some(all) => self.graph.apply(Prim::And, &[all, step]),
+                        None => step,
+                    });
+                }
+                _ => failed = true,
+            }
+            left = right;
+        }
+        match all {
+            Some(all) if !failed => Value::Scalar(all),
+            _ => Value::Error,
+        }
+    }
+
+    fn compare(&mut self, op: CompareOp, a: &Value, b: &Value, span: Span) -> Value {
+        let (Some(ta), Some(tb)) = (a.ty(&self.graph), b.ty(&self.graph)) else {
+            return Value::Error;
+        };
+        let equality = matches!(op, CompareOp::Equal | CompareOp::NotEqual);
+        let fits = |t| t == Type::Real || (equality && t == Type::Complex);
+        if !fits(ta) || !fits(tb) {
+            let culprit = if fits(ta) { tb } else { ta };
+            let problem = Diagnostic::error(
+                "type-mismatch",
+                span,
+                format!("{culprit} values have no order to compare by"),
+            );
+            return self.report(match culprit {
+                Type::Complex => problem.with_hint("compare abs(z), re(z) or im(z)"),
+                Type::Vector(_) => problem.with_hint("compare components, or |p|"),
+                _ => problem.with_hint("join conditions with `and`, `or`, `not`"),
+            });
+        }
+        let (Value::Scalar(mut a), Value::Scalar(mut b)) = (a.clone(), b.clone()) else {
+            return Value::Error;
+        };
+        let prim = match op {
+            CompareOp::Less | CompareOp::Greater => Prim::Less,
+            CompareOp::LessEqual | CompareOp::GreaterEqual => Prim::LessEqual,
+            CompareOp::Equal => Prim::Equal,
+            CompareOp::NotEqual => Prim::NotEqual,
+        };
+        if matches!(op, CompareOp::Greater | CompareOp::GreaterEqual) {
+            std::mem::swap(&mut a, &mut b);
+        }
+        Value::Scalar(self.graph.apply(prim, &[a, b]))
+    }
+
+    /// The first value whose condition holds; NaN where none does and there is no other.
+    pub(super) fn choice(
+        &mut self,
+        arms: &'a [(ExprId, ExprId)],
+        otherwise: Option<ExprId>,
+        span: Span,
+    ) -> Value {
+        let mut built = Vec::with_capacity(arms.len());
+        let mut failed = false;
+        for &(cond, value) in arms {
+            let condition = match self.expr(cond) {
+                Value::Scalar(id) if self.graph.ty(id) == Ty::Bool => Some(id),
+                other => {
+                    let span = self.span(cond);
+                    self.condition_expected(&other, span);
+                    None
+                }
+            };
+            let value_span = self.span(value);
+            let value = self.expr(value);
+            failed |= condition.is_none() || value == Value::Error;
+            built.push((condition, value, value_span));
+        }
+        let last = match otherwise {
+            Some(otherwise) => (self.expr(otherwise), self.span(otherwise)),
+            None => (self.undefined_like(built.first().map(|b| &b.1)), span),
+        };
+        if failed {
+            return Value::Error;
+        }
+        let (mut value, mut span) = last;
+        while let Some((condition, arm, arm_span)) = built.pop() {
+            let Some(condition) = condition else { return Value::Error };
+            value = self.select(condition, (&arm, arm_span), (&value, span));
+            span = arm_span;
+        }
+        value
+    }
+
+    fn undefined_like(&mut self, like: Option<&Value>) -> Value {
+        let nan = self.graph.real(f64::NAN);
+        match like {
+            Some(Value::Vector(items)) => Value::Vector(SmallVec::from_elem(nan, items.len())),
+            Some(Value::Error) => Value::Error,
+            _ => Value::Scalar(nan),
+        }
+    }
+
+    fn select(&mut self, condition: Id, a: (&Value, Span), b: (&Value, Span)) -> Value {
+        match (a.0, b.0) {
+            (Value::Error, _) | (_, Value::Error) => Value::Error,
+            (Value::Scalar(x), Value::Scalar(y)) => {
+                let (tx, ty) = (self.graph.ty(*x), self.graph.ty(*y));
+                let (x, y) = if tx == Ty::Complex || ty == Ty::Complex {
+                    (self.graph.widen(*x), self.graph.widen(*y))
+                } else {
+                    (*x, *y)
+                };
+                if self.graph.ty(x) != self.graph.ty(y) {
+                    return self.branches_differ(a, b);
+                }
+                Value::Scalar(self.graph.apply(Prim::Select, &[condition, x, y]))
+            }
+            (Value::Vector(x), Value::Vector(y)) if x.len() == y.len() => Value::Vector(
+                x.iter()
+                    .zip(y)
+                    .map(|(&x, &y)| self.graph.apply(Prim::Select, &[condition, x, y]))
+                    .collect(),
+            ),
+            _ => self.branches_differ(a, b),
+        }
+    }
+
+    fn branches_differ(&mut self, a: (&Value, Span), b: (&Value, Span)) -> Value {
+        let (Some(ta), Some(tb)) = (a.0.ty(&self.graph), b.0.ty(&self.graph)) else {
+            return Value::Error;
+        };
+        self.report(
+            Diagnostic::error(
+                "type-mismatch",
+                b.1,
+                format!("the branches differ in type: {ta} and {tb}"),
+            )
+            .with_label(format!("this is {tb}"))
+            .with_related(a.1, format!("this is {ta}")),
+        )
+    }
+}

@@ -1,0 +1,169 @@
+//! Forward mode: tangents of every node along one direction, with zero tangents folded away.
+
+use super::NoDerivative;
+use super::rules::{int_power_partial, nonzero_modulus, takes_second, zero_like};
+use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
+use crate::table::{self, Derivative};
+
+/// Derivative of each root along the direction that gives each seeded leaf the seed as its tangent. `None` is
+/// an exact zero. A complex leaf may have a real seed: the tangent of a holomorphic expression with seed 1 is
+/// its complex derivative.
+///
+/// Griewank and Walther, Evaluating Derivatives, 2nd edition, chapter 3.
+///
+/// # Errors
+/// An operation that depends on a seeded leaf has no derivative rule.
+pub fn forward(
+    g: &mut Graph,
+    roots: &[Id],
+    seeds: &[(Id, Id)],
+) -> Result<Vec<Option<Id>>, NoDerivative> {
+    let live = g.reachable(roots);
+    let mut tangents: Vec<Option<Id>> = vec![None; live.len()];
+    for &(leaf, seed) in seeds {
+        tangents[leaf.index()] = Some(seed);
+    }
+    let ids: Vec<Id> = g.ids().collect();
+    for id in ids {
+        if !live[id.index()] {
+            continue;
+        }
+        let node = g.node(id).clone();
+        let Op::Apply(prim) = node.op else { continue };
+        if node.args.iter().all(|a| tangents[a.index()].is_none()) {
+            continue;
+        }
+        let of_args: smallvec::SmallVec<[Option<Id>; 3]> =
+            node.args.iter().map(|a| tangents[a.index()]).collect();
+        let tangent = tangent(g, prim, &node, id, &of_args)?;
+        tangents[id.index()] = tangent.filter(|&t| !is_zero(g, t));
+    }
+    Ok(roots.iter().map(|r| tangents[r.index()]).collect())
+}
+
+fn is_zero(g: &Graph, id: Id) -> bool {
+    g.as_real(id) == Some(0.0) || g.as_complex(id) == Some((0.0, 0.0))
+}
+
+fn sum(g: &mut Graph, a: Option<Id>, b: Option<Id>) -> Option<Id> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(g.add(a, b)),
+        _ => a.or(b),
+    }
+}
+
+fn tangent(
+    g: &mut Graph,
+    prim: Prim,
+    node: &Node,
+    value: Id,
+    tangents: &[Option<Id>],
+) -> Result<Option<Id>, NoDerivative> {
+    let row = table::row(prim);
+    match row.derivative {
+        Derivative::Zero => Ok(None),
+        Derivative::Missing => Err(NoDerivative { prim }),
+        Derivative::Structural => Ok(structural(g, prim, node, value, tangents)),
+        Derivative::Partial(partial) => {
+            let mut total = None;
+            for (k, tangent) in tangents.iter().enumerate() {
+                let Some(tangent) = *tangent else { continue };
+                let slope = partial(g, &node.args, value, k);
+                let term = g.mul(slope, tangent);
+                total = sum(g, total, Some(term));
+            }
+            Ok(total)
+        }
+    }
+}
+
+fn structural(
+    g: &mut Graph,
+    prim: Prim,
+    node: &Node,
+    value: Id,
+    tangents: &[Option<Id>],
+) -> Option<Id> {
+    match (prim, node.args.as_slice(), tangents) {
+        (Prim::Neg, _, &[t]) => t.map(|t| g.neg(t)),
+        (Prim::Add, _, &[s, t]) => sum(g, s, t),
+        (Prim::Sub, _, &[s, None]) => s,
+        (Prim::Sub, _, &[None, Some(t)]) => Some(g.neg(t)),
+        (Prim::Sub, _, &[Some(s), Some(t)]) => Some(g.sub(s, t)),
+        (Prim::Mul, &[a, b], &[s, t]) => {
+            let left = s.map(|s| g.mul(s, b));
+            let right = t.map(|t| g.mul(a, t));
+            sum(g, left, right)
+        }
+        // (a/b)' = (a' - (a/b) b') / b
+        (Prim::Div, &[_, b], &[s, t]) => {
+            let correction = t.map(|t| g.mul(value, t));
+            let numerator = match (s, correction) {
+                (Some(s), Some(c)) => g.sub(s, c),
+                (Some(s), None) => s,
+                (None, Some(c)) => g.neg(c),
+                (None, None) => return None,
+            };
+            Some(g.div(numerator, b))
+        }
+        (Prim::PowInt(n), &[x], &[Some(t)]) => {
+            let slope = int_power_partial(g, x, n);
+            Some(g.mul(slope, t))
+        }
+        (Prim::Complex, _, &[s, t]) => Some(complex_tangent(g, s, t)),
+        (Prim::Re | Prim::Im | Prim::Conj, _, &[Some(t)]) => Some(g.apply(prim, &[t])),
+        (Prim::Abs, &[x], &[Some(t)]) => Some(abs_tangent(g, x, value, t)),
+        // (arg z)' = im(z'/z)
+        (Prim::Arg, &[z], &[Some(t)]) if g.ty(z) == Ty::Complex => {
+            let quotient = g.div(t, z);
+            Some(g.apply(Prim::Im, &[quotient]))
+        }
+        (Prim::Min | Prim::Max, &[a, b], &[s, t]) => {
+            let second = takes_second(g, prim, a, b);
+            Some(choice(g, second, t, s))
+        }
+        (Prim::Select, &[c, ..], &[_, s, t]) if s.is_some() || t.is_some() => {
+            Some(choice(g, c, s, t))
+        }
+        _ => None,
+    }
+}
+
+fn complex_tangent(g: &mut Graph, re: Option<Id>, im: Option<Id>) -> Id {
+    let zero = g.real(0.0);
+    match (re, im) {
+        // a real tangent stays real: mixed arithmetic is cheaper and exact
+        (Some(re), None) => re,
+        (re, im) => g.apply(Prim::Complex, &[re.unwrap_or(zero), im.unwrap_or(zero)]),
+    }
+}
+
+/// |x|' = sign(x) x', which is 0 at 0; |z|' = re(conj(z)/|z| · z').
+fn abs_tangent(g: &mut Graph, x: Id, value: Id, tangent: Id) -> Id {
+    if g.ty(x) == Ty::Real {
+        let sign = g.apply(Prim::Sign, &[x]);
+        return g.mul(sign, tangent);
+    }
+    let modulus = nonzero_modulus(g, value);
+    let mut total = None;
+    for part in [Prim::Re, Prim::Im] {
+        let (side, slope) = (g.apply(part, &[x]), g.apply(part, &[tangent]));
+        if is_zero(g, slope) {
+            continue;
+        }
+        let cosine = g.div(side, modulus);
+        let term = g.mul(cosine, slope);
+        total = sum(g, total, Some(term));
+    }
+    total.unwrap_or_else(|| g.real(0.0))
+}
+
+fn choice(g: &mut Graph, condition: Id, a: Option<Id>, b: Option<Id>) -> Id {
+    let complex = [a, b].iter().flatten().any(|&t| g.ty(t) == Ty::Complex);
+    let zero = zero_like(g, if complex { Ty::Complex } else { Ty::Real });
+    let (mut a, mut b) = (a.unwrap_or(zero), b.unwrap_or(zero));
+    if complex {
+        (a, b) = (g.widen(a), g.widen(b));
+    }
+    g.apply(Prim::Select, &[condition, a, b])
+}

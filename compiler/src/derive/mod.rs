@@ -1,0 +1,21 @@
+//! Exact derivatives as IR: forward mode, reverse mode, and the complex jet.
+
+mod forward;
+mod gradient;
+mod jet;
+mod reverse;
+mod rules;
+
+pub use forward::forward;
+pub use gradient::{Gradient, gradient};
+pub use jet::{ComplexVariable, Jet, is_holomorphic, jet};
+pub use reverse::reverse;
+
+use crate::ir::Prim;
+
+/// An operation on the way has no derivative rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoDerivative {
+    /// The operation.
+    pub prim: Prim,
+}

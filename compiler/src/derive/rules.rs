@@ -1,0 +1,30 @@
+//! What both modes know about the operations that the table calls structural.
+
+use crate::ir::{Graph, Id, Prim, Ty};
+
+/// n · x^(n-1)
+pub fn int_power_partial(g: &mut Graph, x: Id, n: i32) -> Id {
+    let power = g.apply(Prim::PowInt(n.saturating_sub(1)), &[x]);
+    let factor = g.real(f64::from(n));
+    g.mul(factor, power)
+}
+
+/// Keeps a modulus from zero by the least normal f32, so that directions at the origin are 0 and not NaN.
+pub fn nonzero_modulus(g: &mut Graph, modulus: Id) -> Id {
+    let least = g.real(f64::from(f32::MIN_POSITIVE));
+    g.apply(Prim::Max, &[modulus, least])
+}
+
+/// A zero of the type of `like`.
+pub fn zero_like(g: &mut Graph, like: Ty) -> Id {
+    if like == Ty::Complex { g.complex(0.0, 0.0) } else { g.real(0.0) }
+}
+
+/// The condition under which `min` or `max` takes its second operand.
+pub fn takes_second(g: &mut Graph, prim: Prim, a: Id, b: Id) -> Id {
+    if prim == Prim::Min {
+        g.apply(Prim::Less, &[b, a])
+    } else {
+        g.apply(Prim::Less, &[a, b])
+    }
+}

@@ -1,0 +1,108 @@
+//! Formulas and scenes as text of shading languages.
+
+mod function;
+mod text;
+
+pub use text::{Target, write};
+
+use pullback_grammar::Diagnostic;
+
+use crate::lower::Precision;
+use crate::module::{EvalModule, Evaluator, ModuleError, SceneModule, What};
+use crate::program::{Picture, Program};
+
+/// What is emitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum EmitWhat {
+    /// A function for the value.
+    Value,
+    /// A function for the partial derivatives and the value.
+    Gradient,
+    /// A function for the value and the derivative by one variable.
+    Derivative,
+    /// The whole scene.
+    Scene,
+}
+
+impl Program {
+    fn picture(&self, index: usize) -> Result<&Picture, Vec<Diagnostic>> {
+        self.pictures().get(index).ok_or_else(|| {
+            vec![Diagnostic::error(
+                "no-picture",
+                pullback_grammar::Span::default(),
+                format!("there are {} pictures, not {}", self.pictures().len(), index + 1),
+            )]
+        })
+    }
+
+    fn with_picture<T>(
+        &self,
+        index: usize,
+        make: impl FnOnce(&Picture) -> Result<T, ModuleError>,
+    ) -> Result<T, Vec<Diagnostic>> {
+        let picture = self.picture(index)?;
+        make(picture).map_err(|error| vec![error.diagnostic(&picture.formula)])
+    }
+
+    /// The scene's module with the formula in it.
+    ///
+    /// # Errors
+    /// What the formula lacks for the scene, at its place.
+    pub fn scene_module(
+        &self,
+        picture: usize,
+        precision: Precision,
+    ) -> Result<SceneModule, Vec<Diagnostic>> {
+        self.with_picture(picture, |p| SceneModule::new(p, precision))
+    }
+
+    /// A module that evaluates rows of numbers.
+    ///
+    /// # Errors
+    /// What the formula lacks, at its place.
+    pub fn eval_module(
+        &self,
+        picture: usize,
+        what: What,
+        precision: Precision,
+    ) -> Result<EvalModule, Vec<Diagnostic>> {
+        self.with_picture(picture, |p| EvalModule::new(&p.formula, what, precision))
+    }
+
+    /// The `f64` reference for rows of numbers.
+    ///
+    /// # Errors
+    /// What the formula lacks, at its place.
+    pub fn evaluator(&self, picture: usize, what: What) -> Result<Evaluator, Vec<Diagnostic>> {
+        self.with_picture(picture, |p| Evaluator::new(&p.formula, what))
+    }
+
+    /// Text (or words, for SPIR-V) of the formula or its scene in a shading language.
+    ///
+    /// # Errors
+    /// What the formula lacks, at its place, or what the shading language cannot say.
+    pub fn emit(
+        &self,
+        picture: usize,
+        what: EmitWhat,
+        target: Target,
+        precision: Precision,
+    ) -> Result<Vec<u8>, Vec<Diagnostic>> {
+        self.with_picture(picture, |p| {
+            let (module, info, header) = match what {
+                EmitWhat::Scene => {
+                    let scene = SceneModule::new(p, precision)?;
+                    (scene.module, scene.info, format!("the scene `{}`", p.scene.name))
+                }
+                EmitWhat::Value => function::standalone(self, p, What::Value, precision, target)?,
+                EmitWhat::Gradient => {
+                    function::standalone(self, p, What::Gradient, precision, target)?
+                }
+                EmitWhat::Derivative => {
+                    function::standalone(self, p, What::Derivative, precision, target)?
+                }
+            };
+            write(&module, &info, target, &header).map_err(ModuleError::Invalid)
+        })
+    }
+}

@@ -1,0 +1,88 @@
+//! A formula that has been checked: what it takes, what it gives, and its IR.
+
+use pullback_grammar::Span;
+use smallvec::SmallVec;
+
+use crate::check::Value;
+use crate::ir::{Graph, Id, Op, Ty};
+use crate::types::Type;
+
+/// One argument of a formula.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Input {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: Type,
+}
+
+/// A function or bare formula with resolved types.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    /// Its name; `f` for a bare formula.
+    pub name: String,
+    /// Its arguments in order.
+    pub inputs: Vec<Input>,
+    /// The IR. The scalar inputs are the components of the arguments in order, a complex one being one input.
+    pub graph: Graph,
+    /// The value: one node, or the components of a vector.
+    pub value: SmallVec<[Id; 4]>,
+    /// Type of the value.
+    pub ty: Type,
+    /// Where it stands in the text.
+    pub span: Span,
+}
+
+impl Formula {
+    /// The leaf of the k-th scalar input, by IR type; added to the graph where the formula does not use it.
+    pub fn leaf(graph: &mut Graph, k: usize, ty: Ty) -> Id {
+        graph.leaf(Op::Input(u16::try_from(k).unwrap_or(u16::MAX)), ty)
+    }
+
+    /// IR types of the scalar inputs.
+    #[must_use]
+    pub fn scalars(&self) -> Vec<Ty> {
+        self.inputs.iter().flat_map(|input| scalar_types(input.ty)).collect()
+    }
+
+    /// Names of the real columns that hold the arguments in tables.
+    #[must_use]
+    pub fn columns(&self) -> Vec<String> {
+        self.inputs.iter().flat_map(|input| column_names(&input.name, input.ty)).collect()
+    }
+}
+
+/// IR types of the scalars that make up a value.
+#[must_use]
+pub fn scalar_types(ty: Type) -> Vec<Ty> {
+    match ty {
+        Type::Real => vec![Ty::Real],
+        Type::Complex => vec![Ty::Complex],
+        Type::Bool => vec![Ty::Bool],
+        Type::Vector(n) => vec![Ty::Real; usize::from(n)],
+    }
+}
+
+/// Names of the columns of a value in tables.
+#[must_use]
+pub fn column_names(name: &str, ty: Type) -> Vec<String> {
+    match ty {
+        Type::Real | Type::Bool => vec![name.to_owned()],
+        Type::Complex => vec![format!("re({name})"), format!("im({name})")],
+        Type::Vector(n) => {
+            ["x", "y", "z", "w"].iter().take(usize::from(n)).map(|c| format!("{name}.{c}")).collect()
+        }
+    }
+}
+
+/// The value that stands for an argument while a formula is built.
+pub fn argument_value(graph: &mut Graph, first: usize, ty: Type) -> Value {
+    let leaves = scalar_types(ty)
+        .into_iter()
+        .enumerate()
+        .map(|(k, scalar)| Formula::leaf(graph, first + k, scalar));
+    match ty {
+        Type::Vector(_) => Value::Vector(leaves.collect()),
+        _ => leaves.map(Value::Scalar).next().unwrap_or(Value::Error),
+    }
+}

@@ -1,0 +1,36 @@
+//! Counted cost of an expression.
+
+use super::{Graph, Id, Op, Ty, expand_powers};
+use crate::table;
+
+/// Cost of an expression after common subexpressions, integer powers counted as products.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    /// Number of operations; leaves and constants are free.
+    pub operations: u32,
+    /// Operations weighted by the operator table (one addition or multiplication of reals is 1).
+    pub weighted: u32,
+}
+
+/// Cost of computing all the roots together.
+#[must_use]
+pub fn cost(graph: &Graph, roots: &[Id]) -> Cost {
+    let (graph, roots) = expand_powers(graph, roots);
+    let live = graph.reachable(&roots);
+    let mut total = Cost::default();
+    for (id, node) in graph.ids().zip(graph.nodes()) {
+        let Op::Apply(prim) = node.op else { continue };
+        if !live[id.index()] {
+            continue;
+        }
+        let complex = node.ty == Ty::Complex
+            || node.args.iter().any(|&a| graph.ty(a) == Ty::Complex);
+        let row = table::row(prim);
+        let weight = if complex { row.cost.complex } else { row.cost.real };
+        if weight > 0 {
+            total.operations += 1;
+            total.weighted += u32::from(weight);
+        }
+    }
+    total
+}

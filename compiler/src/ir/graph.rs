@@ -1,0 +1,216 @@
+//! The hash-consed expression graph.
+
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+
+use super::{Op, Prim, Ty};
+
+/// Index of a node. Operands have smaller indices than their users.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Id(pub(super) u32);
+
+impl Id {
+    /// Position in [`Graph::nodes`].
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// One operation with its operands.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Node {
+    /// What is computed.
+    pub op: Op,
+    /// Type of the result.
+    pub ty: Ty,
+    /// Operands.
+    pub args: SmallVec<[Id; 3]>,
+}
+
+/// The graph has reached [`Graph::MAX_NODES`]; what was built since is not meaningful.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OverBudget;
+
+/// Hash-consed expression graph: equal nodes are one node.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    ids: FxHashMap<Node, Id>,
+    names: FxHashMap<Id, String>,
+    over_budget: bool,
+}
+
+impl Graph {
+    /// Greatest number of nodes; a formula that needs more is refused.
+    pub const MAX_NODES: usize = 2_000_000;
+
+    /// An empty graph.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Every node, operands before users.
+    #[must_use]
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The node with this index.
+    #[must_use]
+    pub fn node(&self, id: Id) -> &Node {
+        &self.nodes[id.index()]
+    }
+
+    /// Type of a node.
+    #[must_use]
+    pub fn ty(&self, id: Id) -> Ty {
+        self.nodes[id.index()].ty
+    }
+
+    /// Ids of all nodes in order.
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = Id> + use<> {
+        (0..u32::try_from(self.nodes.len()).unwrap_or(u32::MAX)).map(Id)
+    }
+
+    /// Fails once the node budget has been used up.
+    ///
+    /// # Errors
+    /// [`OverBudget`] where a node was refused.
+    pub fn budget(&self) -> Result<(), OverBudget> {
+        if self.over_budget { Err(OverBudget) } else { Ok(()) }
+    }
+
+    /// Adds a node as it is, without simplification, or finds the one that is equal to it. Sums and products
+    /// are found in either order of their operands (both are commutative in IEEE 754 arithmetic).
+    pub(crate) fn intern(&mut self, op: Op, ty: Ty, args: &[Id]) -> Id {
+        let node = Node { op, ty, args: SmallVec::from_slice(args) };
+        if let Some(&id) = self.ids.get(&node) {
+            return id;
+        }
+        if let (Op::Apply(prim), &[a, b]) = (op, args)
+            && prim.is_commutative()
+        {
+            let swapped = Node { op, ty, args: SmallVec::from_slice(&[b, a]) };
+            if let Some(&id) = self.ids.get(&swapped) {
+                return id;
+            }
+        }
+        if self.nodes.len() >= Self::MAX_NODES {
+            self.over_budget = true;
+            return Id(0);
+        }
+        let id = Id(u32::try_from(self.nodes.len()).unwrap_or(0));
+        self.nodes.push(node.clone());
+        self.ids.insert(node, id);
+        id
+    }
+
+    /// A real constant.
+    pub fn real(&mut self, value: f64) -> Id {
+        self.intern(Op::Const(value.to_bits()), Ty::Real, &[])
+    }
+
+    /// A complex constant.
+    pub fn complex(&mut self, re: f64, im: f64) -> Id {
+        let args = [self.real(re), self.real(im)];
+        self.intern(Op::Apply(Prim::Complex), Ty::Complex, &args)
+    }
+
+    /// A truth value.
+    pub fn truth(&mut self, value: bool) -> Id {
+        self.intern(Op::Truth(value), Ty::Bool, &[])
+    }
+
+    /// A leaf: an input, a parameter, the clock or the footprint.
+    pub fn leaf(&mut self, op: Op, ty: Ty) -> Id {
+        self.intern(op, ty, &[])
+    }
+
+    /// The value of a real constant.
+    #[must_use]
+    pub fn as_real(&self, id: Id) -> Option<f64> {
+        match self.node(id).op {
+            Op::Const(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    /// The value of a complex constant.
+    #[must_use]
+    pub fn as_complex(&self, id: Id) -> Option<(f64, f64)> {
+        let node = self.node(id);
+        match (node.op, node.args.as_slice()) {
+            (Op::Apply(Prim::Complex), &[re, im]) => Some((self.as_real(re)?, self.as_real(im)?)),
+            _ => None,
+        }
+    }
+
+    /// Remembers the user's name of a value; the first name stays.
+    pub fn set_name(&mut self, id: Id, name: &str) {
+        self.names.entry(id).or_insert_with(|| name.to_owned());
+    }
+
+    /// The user's name of a value.
+    #[must_use]
+    pub fn name(&self, id: Id) -> Option<&str> {
+        self.names.get(&id).map(String::as_str)
+    }
+
+    /// Marks the nodes that the roots depend on, themselves included.
+    #[must_use]
+    pub fn reachable(&self, roots: &[Id]) -> Vec<bool> {
+        let mut seen = vec![false; self.nodes.len()];
+        for root in roots {
+            seen[root.index()] = true;
+        }
+        for index in (0..self.nodes.len()).rev() {
+            if seen[index] {
+                for arg in &self.nodes[index].args {
+                    seen[arg.index()] = true;
+                }
+            }
+        }
+        seen
+    }
+
+    /// A graph with only what the roots depend on, and the roots in it.
+    #[must_use]
+    pub fn compacted(&self, roots: &[Id]) -> (Self, Vec<Id>) {
+        let live = self.reachable(roots);
+        let mut out = Self::new();
+        let mut map: Vec<Option<Id>> = vec![None; self.nodes.len()];
+        for (id, node) in self.ids().zip(&self.nodes) {
+            if !live[id.index()] {
+                continue;
+            }
+            let args: SmallVec<[Id; 3]> =
+                node.args.iter().filter_map(|a| map[a.index()]).collect();
+            let new = out.intern(node.op, node.ty, &args);
+            if let Some(name) = self.name(id) {
+                out.set_name(new, name);
+            }
+            map[id.index()] = Some(new);
+        }
+        let roots = roots.iter().filter_map(|r| map[r.index()]).collect();
+        (out, roots)
+    }
+}
+
+impl Prim {
+    /// Whether `op(a, b)` and `op(b, a)` are the same number.
+    #[must_use]
+    pub fn is_commutative(self) -> bool {
+        matches!(
+            self,
+            Self::Add
+                | Self::Mul
+                | Self::Hypot
+                | Self::Equal
+                | Self::NotEqual
+                | Self::And
+                | Self::Or
+        )
+    }
+}

@@ -1,0 +1,100 @@
+//! Types and operations of the IR.
+
+/// Type of a value in the IR.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Ty {
+    /// A real number.
+    Real,
+    /// A complex number.
+    Complex,
+    /// A truth value.
+    Bool,
+}
+
+/// What a node computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Op {
+    /// A real constant, by the bits of its `f64` (so that `-0` and NaN are themselves).
+    Const(u64),
+    /// A truth value.
+    Truth(bool),
+    /// The k-th scalar input of the function that is being compiled.
+    Input(u16),
+    /// The k-th user parameter (a uniform).
+    Param(u16),
+    /// The animation clock in seconds.
+    Time,
+    /// The footprint of a pixel in world units.
+    Pixel,
+    /// A primitive of the operator table applied to the node's arguments.
+    Apply(Prim),
+}
+
+/// Primitives: the operations that every evaluator implements. Each is one row of the operator table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs, reason = "the operator table documents each under its name")]
+pub enum Prim {
+    Neg,
+    Add,
+    Sub,
+    Mul,
+    Div,
+    /// Power with a constant integer exponent.
+    PowInt(i32),
+    Pow,
+    /// A complex number from real and imaginary part.
+    Complex,
+    Re,
+    Im,
+    Conj,
+    Abs,
+    Arg,
+    Sqrt,
+    Cbrt,
+    Hypot,
+    /// Length of a vector of three reals without spurious overflow.
+    Hypot3,
+    Exp,
+    Exp2,
+    Expm1,
+    Log,
+    Log2,
+    Log10,
+    Log1p,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Atan2,
+    Sinh,
+    Cosh,
+    Tanh,
+    Asinh,
+    Acosh,
+    Atanh,
+    Sinc,
+    Gamma,
+    Lgamma,
+    Digamma,
+    Trigamma,
+    Floor,
+    Ceil,
+    Round,
+    Trunc,
+    Fract,
+    Mod,
+    Sign,
+    Min,
+    Max,
+    Less,
+    LessEqual,
+    Equal,
+    NotEqual,
+    And,
+    Or,
+    Not,
+    /// `select(c, a, b)`: a where c holds, else b.
+    Select,
+}

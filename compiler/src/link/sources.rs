@@ -1,0 +1,63 @@
+//! The shader texts that the compiler carries, each parsed once per process.
+
+use std::sync::OnceLock;
+
+use naga::Module;
+
+/// Functions on numbers, as one text.
+const MATH: &str = concat!(
+    include_str!("../../shaders/math/real.wgsl"),
+    "\n",
+    include_str!("../../shaders/math/complex.wgsl"),
+);
+
+/// Functions that scenes draw with, as one text.
+const SHARED: &str = concat!(include_str!("../../shaders/shared/colour.wgsl"), "\n",);
+
+const ENTRY: &str = include_str!("../../shaders/shared/entry.wgsl");
+
+/// The modules that every scene is linked with.
+#[derive(Clone, Copy, Debug)]
+pub struct Sources {
+    /// Entry points.
+    pub entry: &'static Module,
+    /// Drawing.
+    pub shared: &'static Module,
+    /// Numbers.
+    pub math: &'static Module,
+}
+
+/// Parses WGSL; a text of ours that is not valid gives an empty module and the message, which a test reports.
+#[must_use]
+pub fn parse_wgsl(text: &str) -> (Module, Option<String>) {
+    match naga::front::wgsl::parse_str(text) {
+        Ok(module) => (module, None),
+        Err(error) => (Module::default(), Some(error.emit_to_string(text))),
+    }
+}
+
+/// The entry points' module.
+pub fn entry_module() -> &'static Module {
+    static MODULE: OnceLock<Module> = OnceLock::new();
+    MODULE.get_or_init(|| parse_wgsl(ENTRY).0)
+}
+
+/// The drawing library.
+pub fn shared_module() -> &'static Module {
+    static MODULE: OnceLock<Module> = OnceLock::new();
+    MODULE.get_or_init(|| parse_wgsl(SHARED).0)
+}
+
+/// The library of functions on numbers.
+pub fn math_module() -> &'static Module {
+    static MODULE: OnceLock<Module> = OnceLock::new();
+    MODULE.get_or_init(|| parse_wgsl(MATH).0)
+}
+
+impl Sources {
+    /// All of them.
+    #[must_use]
+    pub fn get() -> Self {
+        Self { entry: entry_module(), shared: shared_module(), math: math_module() }
+    }
+}

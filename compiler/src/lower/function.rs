@@ -1,0 +1,471 @@
+//! Lowering an expression graph to a naga function.
+
+use naga::{
+    BinaryOperator, Expression, Function, GlobalVariable, Handle, MathFunction, Type, TypeInner,
+    VectorSize,
+};
+use smallvec::SmallVec;
+
+use super::body::Body;
+use super::{LowerError, NagaTypes, Precision};
+use crate::ir::{Graph, Id, Node, Op, Prim, Ty, expand_powers};
+use crate::link::{LinkError, Linker, Provider};
+use crate::table::{self, Gpu};
+
+/// Where a scalar input of the graph is found among the function's arguments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Argument {
+    /// The whole argument: an `f32`, or a `vec2<f32>` as a complex number.
+    Whole(u32),
+    /// A component or element of the argument.
+    Component(u32, u32),
+    /// Two elements of the argument as real and imaginary part.
+    Pair(u32, u32, u32),
+}
+
+/// Where parameters, clock and footprint come from.
+#[derive(Clone, Copy, Debug)]
+pub enum Leaves {
+    /// Uniforms of the module: the array of parameters, and the structure with `time` and `pixel`.
+    Uniforms {
+        /// `array<vec4<f32>, 16>`
+        params: Handle<GlobalVariable>,
+        /// A structure with members `time` and `pixel`.
+        clock: Handle<GlobalVariable>,
+    },
+    /// Further arguments of the function, found by their names.
+    Arguments {
+        /// Index of the argument of the first parameter; the k-th parameter is the k-th after it.
+        params: u32,
+        /// Index of the clock's argument.
+        time: u32,
+        /// Index of the footprint's argument.
+        pixel: u32,
+    },
+}
+
+/// How results are put together.
+#[derive(Clone, Debug)]
+pub enum Output {
+    /// One node, as it is.
+    Node(usize),
+    /// Zero of a type.
+    Zero(Handle<Type>),
+    /// A vector, structure or array.
+    Compose(Handle<Type>, Vec<Output>),
+    /// Real part of a complex node.
+    Re(usize),
+    /// Imaginary part of a complex node.
+    Im(usize),
+}
+
+/// The shape of the function that is generated.
+#[derive(Clone, Debug)]
+pub struct Interface {
+    /// Its name, arguments and result type.
+    pub declaration: Function,
+    /// Where each scalar input of the graph is.
+    pub inputs: Vec<Argument>,
+    /// Where the other leaves are.
+    pub leaves: Leaves,
+    /// How the roots make up the result; nodes are numbered by their place among the roots.
+    pub output: Output,
+    /// Which forms of functions are called.
+    pub precision: Precision,
+}
+
+/// Every value deeper than this below the last named one is given a name, because text writers recurse.
+const MAX_UNNAMED_DEPTH: u8 = 24;
+
+/// Lowers what the roots depend on.
+///
+/// # Errors
+/// An operation has no form on the GPU, or a library function is missing.
+pub fn lower(
+    graph: &Graph,
+    roots: &[Id],
+    interface: Interface,
+    linker: &mut Linker,
+) -> Result<Function, LowerError> {
+    let (graph, roots) = expand_powers(graph, roots);
+    let types = NagaTypes::insert(&mut linker.out.types);
+    let mut lowering = Lowering {
+        graph: &graph,
+        types,
+        body: Body::new(interface.declaration),
+        inputs: &interface.inputs,
+        leaves: interface.leaves,
+        precision: interface.precision,
+        linker,
+        values: vec![None; graph.nodes().len()],
+        depths: vec![0; graph.nodes().len()],
+    };
+    lowering.declare_leaves(&roots);
+    lowering.nodes(&roots)?;
+    let value = lowering.output(&interface.output, &roots)?;
+    Ok(lowering.body.finish(value))
+}
+
+struct Lowering<'g, 'l, 's> {
+    graph: &'g Graph,
+    types: NagaTypes,
+    body: Body,
+    inputs: &'g [Argument],
+    leaves: Leaves,
+    precision: Precision,
+    linker: &'l mut Linker<'s>,
+    values: Vec<Option<Handle<Expression>>>,
+    /// Levels of unnamed expressions below each value.
+    depths: Vec<u8>,
+}
+
+/// Library functions never call back into generated ones.
+struct LibraryOnly;
+
+impl Provider for LibraryOnly {
+    fn provide(
+        &mut self,
+        _: &str,
+        _: &Function,
+        _: &mut Linker,
+    ) -> Result<Option<Function>, LowerError> {
+        Ok(None)
+    }
+}
+
+impl Lowering<'_, '_, '_> {
+    /// Literals and arguments first, so that they do not cut the emitted ranges apart.
+    fn declare_leaves(&mut self, roots: &[Id]) {
+        for k in 0..self.body.function.arguments.len() {
+            self.body.declare(Expression::FunctionArgument(u32::try_from(k).unwrap_or(0)));
+        }
+        let live = self.graph.reachable(roots);
+        for (id, node) in self.graph.ids().zip(self.graph.nodes()) {
+            if let Op::Const(bits) = node.op
+                && live[id.index()]
+                && let Some(value) = finite(f64::from_bits(bits))
+            {
+                self.values[id.index()] = Some(self.body.literal(value));
+            }
+        }
+    }
+
+    fn nodes(&mut self, roots: &[Id]) -> Result<(), LowerError> {
+        let live = self.graph.reachable(roots);
+        let graph = self.graph;
+        for (id, node) in graph.ids().zip(graph.nodes()) {
+            if !live[id.index()] || self.values[id.index()].is_some() {
+                continue;
+            }
+            let value = self.node(node)?;
+            self.values[id.index()] = Some(value);
+            self.name(id, node, value);
+        }
+        Ok(())
+    }
+
+    /// Names a value by the user's name, or where the text would nest too deep.
+    fn name(&mut self, id: Id, node: &Node, value: Handle<Expression>) {
+        if !matches!(node.op, Op::Apply(_)) {
+            return;
+        }
+        let below = node.args.iter().map(|a| self.depths[a.index()]).max().unwrap_or(0);
+        self.depths[id.index()] = below + 1;
+        let name = match self.graph.name(id) {
+            Some(name) => name.to_owned(),
+            None if below + 1 >= MAX_UNNAMED_DEPTH => format!("t{}", id.index()),
+            None => return,
+        };
+        self.body.function.named_expressions.insert(value, name);
+        self.depths[id.index()] = 0;
+    }
+
+    fn value(&self, id: Id) -> Result<Handle<Expression>, LowerError> {
+        self.values[id.index()].ok_or(LowerError::NoForm("an operand that was not lowered"))
+    }
+
+    fn argument(&self, k: u32) -> Result<Handle<Expression>, LowerError> {
+        // arguments are the first expressions of the body
+        let found = self.body.function.expressions.iter().nth(k as usize);
+        found.map(|(handle, _)| handle).ok_or(LowerError::NoForm("an argument"))
+    }
+
+    fn node(&mut self, node: &Node) -> Result<Handle<Expression>, LowerError> {
+        match node.op {
+            Op::Const(bits) => self.special(f64::from_bits(bits)),
+            Op::Truth(value) => Ok(self.body.declare(Expression::Literal(naga::Literal::Bool(value)))),
+            Op::Input(k) => self.input(k),
+            Op::Param(k) => self.param(k),
+            Op::Time => self.clock("time"),
+            Op::Pixel => self.clock("pixel"),
+            Op::Apply(prim) => self.apply(prim, node),
+        }
+    }
+
+    /// Infinities and NaN, which shading languages have no literals for.
+    fn special(&mut self, value: f64) -> Result<Handle<Expression>, LowerError> {
+        let seed = self.body.literal(0.0);
+        if value.is_nan() {
+            return self.library("real_nan", vec![seed]);
+        }
+        let infinity = self.library("real_infinity", vec![seed])?;
+        Ok(if value > 0.0 { infinity } else { self.unary(naga::UnaryOperator::Negate, infinity) })
+    }
+
+    fn input(&mut self, k: u16) -> Result<Handle<Expression>, LowerError> {
+        let place = self.inputs.get(usize::from(k)).copied();
+        match place.ok_or(LowerError::NoForm("an input"))? {
+            Argument::Whole(a) => self.argument(a),
+            Argument::Component(a, index) => {
+                let base = self.argument(a)?;
+                Ok(self.body.emit(Expression::AccessIndex { base, index }))
+            }
+            Argument::Pair(a, re, im) => {
+                let base = self.argument(a)?;
+                let re = self.body.emit(Expression::AccessIndex { base, index: re });
+                let im = self.body.emit(Expression::AccessIndex { base, index: im });
+                Ok(self.compose(vec![re, im]))
+            }
+        }
+    }
+
+    fn param(&mut self, k: u16) -> Result<Handle<Expression>, LowerError> {
+        match self.leaves {
+            Leaves::Arguments { params, .. } => self.argument(params + u32::from(k)),
+            Leaves::Uniforms { params, .. } => {
+                let base = self.body.declare(Expression::GlobalVariable(params));
+                let base = self
+                    .body
+                    .emit(Expression::AccessIndex { base, index: u32::from(k / 4) });
+                let pointer = self
+                    .body
+                    .emit(Expression::AccessIndex { base, index: u32::from(k % 4) });
+                Ok(self.body.emit(Expression::Load { pointer }))
+            }
+        }
+    }
+
+    fn clock(&mut self, member: &str) -> Result<Handle<Expression>, LowerError> {
+        match self.leaves {
+            Leaves::Arguments { time, pixel, .. } => {
+                self.argument(if member == "time" { time } else { pixel })
+            }
+            Leaves::Uniforms { clock, .. } => {
+                let ty = self.linker.out.global_variables[clock].ty;
+                let TypeInner::Struct { members, .. } = &self.linker.out.types[ty].inner else {
+                    return Err(LowerError::NoForm("the clock"));
+                };
+                let found = members.iter().position(|m| m.name.as_deref() == Some(member));
+                let index = found.and_then(|i| u32::try_from(i).ok());
+                let index = index.ok_or(LowerError::NoForm("the clock"))?;
+                let base = self.body.declare(Expression::GlobalVariable(clock));
+                let pointer = self.body.emit(Expression::AccessIndex { base, index });
+                Ok(self.body.emit(Expression::Load { pointer }))
+            }
+        }
+    }
+
+    fn library(
+        &mut self,
+        name: &str,
+        arguments: Vec<Handle<Expression>>,
+    ) -> Result<Handle<Expression>, LowerError> {
+        let function = self.linker.function(name, &mut LibraryOnly).map_err(|error| match error {
+            LinkError::Missing(_) => LowerError::NoForm(missing_form(name)),
+            error => error.into(),
+        })?;
+        Ok(self.body.call(function, arguments))
+    }
+
+    fn apply(&mut self, prim: Prim, node: &Node) -> Result<Handle<Expression>, LowerError> {
+        let mut args: SmallVec<[Handle<Expression>; 3]> = SmallVec::new();
+        for &arg in &node.args {
+            args.push(self.value(arg)?);
+        }
+        let complex = node.args.iter().any(|&a| self.graph.ty(a) == Ty::Complex);
+        if complex || node.ty == Ty::Complex {
+            return self.apply_complex(prim, node, &args);
+        }
+        match table::row(prim).gpu {
+            Gpu::Binary(op) => Ok(self.binary(op, args[0], args[1])),
+            Gpu::Unary(op) => Ok(self.unary(op, args[0])),
+            Gpu::Builtin(fun) => Ok(self.math(fun, &args)),
+            Gpu::Library(_, Some(fun)) if self.precision == Precision::Fast => {
+                Ok(self.math(fun, &args))
+            }
+            Gpu::Library(name, _) => self.library(name, args.to_vec()),
+            Gpu::Structural => match prim {
+                Prim::Select => Ok(self.select(&args)),
+                Prim::PowInt(n) => {
+                    let n = self.body.declare(Expression::Literal(naga::Literal::I32(n)));
+                    self.library("real_powi", vec![args[0], n])
+                }
+                _ => Err(LowerError::NoForm(table::row(prim).usage)),
+            },
+        }
+    }
+
+    fn apply_complex(
+        &mut self,
+        prim: Prim,
+        node: &Node,
+        args: &[Handle<Expression>],
+    ) -> Result<Handle<Expression>, LowerError> {
+        let is_complex: SmallVec<[bool; 3]> =
+            node.args.iter().map(|&a| self.graph.ty(a) == Ty::Complex).collect();
+        match (prim, args) {
+            (Prim::Complex, &[re, im]) => Ok(self.compose(vec![re, im])),
+            (Prim::Re, &[z]) => Ok(self.part(z, 0)),
+            (Prim::Im, &[z]) => Ok(self.part(z, 1)),
+            (Prim::Conj, &[z]) => {
+                let (re, im) = (self.part(z, 0), self.part(z, 1));
+                let im = self.unary(naga::UnaryOperator::Negate, im);
+                Ok(self.compose(vec![re, im]))
+            }
+            (Prim::Neg, &[z]) => Ok(self.unary(naga::UnaryOperator::Negate, z)),
+            (Prim::Select, _) => Ok(self.select(args)),
+            (Prim::Equal | Prim::NotEqual, &[a, b]) => Ok(self.equal_parts(prim, a, b)),
+            (Prim::Add | Prim::Sub, &[a, b]) => {
+                Ok(self.sum(prim, (a, is_complex[0]), (b, is_complex[1])))
+            }
+            (Prim::Mul, &[a, b]) if !(is_complex[0] && is_complex[1]) => {
+                Ok(self.binary(BinaryOperator::Multiply, a, b))
+            }
+            (Prim::Div, &[a, b]) if !is_complex[1] => {
+                let b = self.body.emit(Expression::Splat { size: VectorSize::Bi, value: b });
+                Ok(self.binary(BinaryOperator::Divide, a, b))
+            }
+            (Prim::Div, &[a, b]) if !is_complex[0] => {
+                let inverse = self.library("complex_inverse", vec![b])?;
+                if self.graph.as_real(node.args[0]) == Some(1.0) {
+                    return Ok(inverse);
+                }
+                Ok(self.binary(BinaryOperator::Multiply, a, inverse))
+            }
+            (Prim::PowInt(n), &[z]) => {
+                let n = self.body.declare(Expression::Literal(naga::Literal::I32(n)));
+                self.library("complex_powi", vec![z, n])
+            }
+            _ => {
+                let row = table::row(prim);
+                if row.gpu_complex.is_empty() {
+                    return Err(LowerError::NoForm(row.usage));
+                }
+                self.library(row.gpu_complex, args.to_vec())
+            }
+        }
+    }
+
+    /// Sum or difference; a real operand is not widened, so that no signed zero of the other is lost.
+    fn sum(
+        &mut self,
+        prim: Prim,
+        (a, a_complex): (Handle<Expression>, bool),
+        (b, b_complex): (Handle<Expression>, bool),
+    ) -> Handle<Expression> {
+        let op = if prim == Prim::Add { BinaryOperator::Add } else { BinaryOperator::Subtract };
+        if a_complex && b_complex {
+            return self.binary(op, a, b);
+        }
+        let (re, im) = if a_complex {
+            let (re, im) = (self.part(a, 0), self.part(a, 1));
+            (self.binary(op, re, b), im)
+        } else {
+            let (re, im) = (self.part(b, 0), self.part(b, 1));
+            let re = self.binary(op, a, re);
+            let im =
+                if prim == Prim::Add { im } else { self.unary(naga::UnaryOperator::Negate, im) };
+            (re, im)
+        };
+        self.compose(vec![re, im])
+    }
+
+    fn equal_parts(
+        &mut self,
+        prim: Prim,
+        a: Handle<Expression>,
+        b: Handle<Expression>,
+    ) -> Handle<Expression> {
+        let (each, join) = if prim == Prim::Equal {
+            (BinaryOperator::Equal, BinaryOperator::LogicalAnd)
+        } else {
+            (BinaryOperator::NotEqual, BinaryOperator::LogicalOr)
+        };
+        let parts = [0, 1].map(|k| {
+            let (a, b) = (self.part(a, k), self.part(b, k));
+            self.binary(each, a, b)
+        });
+        self.binary(join, parts[0], parts[1])
+    }
+
+    fn part(&mut self, base: Handle<Expression>, index: u32) -> Handle<Expression> {
+        self.body.emit(Expression::AccessIndex { base, index })
+    }
+
+    fn compose(&mut self, components: Vec<Handle<Expression>>) -> Handle<Expression> {
+        self.body.emit(Expression::Compose { ty: self.types.vec2, components })
+    }
+
+    fn unary(&mut self, op: naga::UnaryOperator, expr: Handle<Expression>) -> Handle<Expression> {
+        self.body.emit(Expression::Unary { op, expr })
+    }
+
+    fn binary(
+        &mut self,
+        op: BinaryOperator,
+        left: Handle<Expression>,
+        right: Handle<Expression>,
+    ) -> Handle<Expression> {
+        self.body.emit(Expression::Binary { op, left, right })
+    }
+
+    fn math(&mut self, fun: MathFunction, args: &[Handle<Expression>]) -> Handle<Expression> {
+        let (arg1, arg2) = (args.get(1).copied(), args.get(2).copied());
+        self.body.emit(Expression::Math { fun, arg: args[0], arg1, arg2, arg3: None })
+    }
+
+    fn select(&mut self, args: &[Handle<Expression>]) -> Handle<Expression> {
+        self.body.emit(Expression::Select {
+            condition: args[0],
+            accept: args[1],
+            reject: args[2],
+        })
+    }
+
+    fn output(&mut self, output: &Output, roots: &[Id]) -> Result<Handle<Expression>, LowerError> {
+        let root = |k: &usize| roots.get(*k).copied().ok_or(LowerError::NoForm("a result"));
+        Ok(match output {
+            Output::Node(k) => self.value(root(k)?)?,
+            Output::Re(k) => {
+                let z = self.value(root(k)?)?;
+                self.part(z, 0)
+            }
+            Output::Im(k) => {
+                let z = self.value(root(k)?)?;
+                self.part(z, 1)
+            }
+            Output::Zero(ty) => self.body.declare(Expression::ZeroValue(*ty)),
+            Output::Compose(ty, parts) => {
+                let components =
+                    parts.iter().map(|p| self.output(p, roots)).collect::<Result<_, _>>()?;
+                self.body.emit(Expression::Compose { ty: *ty, components })
+            }
+        })
+    }
+}
+
+/// The value as a finite `f32`, or `None` where it is NaN or beyond its range.
+fn finite(value: f64) -> Option<f32> {
+    #[allow(clippy::cast_possible_truncation, reason = "rounding to the shader's format is meant")]
+    let value = value as f32;
+    value.is_finite().then_some(value)
+}
+
+fn missing_form(name: &str) -> &'static str {
+    table::rows()
+        .iter()
+        .find(|row| {
+            row.gpu_complex == name || matches!(row.gpu, Gpu::Library(library, _) if library == name)
+        })
+        .map_or("a library function", |row| row.usage)
+}

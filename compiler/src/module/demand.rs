@@ -1,0 +1,165 @@
+//! What a template asks for: the stubs that are found in it are filled in, and nothing else is compiled.
+
+use naga::{Function, GlobalVariable, Handle};
+
+use super::substitute::substitute;
+use crate::derive::{ComplexVariable, forward, gradient, jet};
+use crate::formula::Formula;
+use crate::ir::{Graph, Id, Ty};
+use crate::link::{Linker, Provider};
+use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
+
+/// Fills the stubs of a scene from one formula.
+#[derive(Debug)]
+pub struct Demand<'f> {
+    /// What is shown.
+    pub formula: &'f Formula,
+    /// Which forms of functions are called.
+    pub precision: Precision,
+}
+
+/// Roots in a graph, and how they make up the result of a stub.
+struct Answer {
+    graph: Graph,
+    roots: Vec<Id>,
+    inputs: Vec<Argument>,
+    output: Output,
+}
+
+impl Provider for Demand<'_> {
+    fn provide(
+        &mut self,
+        name: &str,
+        stub: &Function,
+        linker: &mut Linker,
+    ) -> Result<Option<Function>, LowerError> {
+        let types = NagaTypes::insert(&mut linker.out.types);
+        let answer = match name {
+            "field" => self.value(),
+            "field_grad" => self.gradient(stub)?,
+            "field_ray" => self.ray(types)?,
+            "map" => self.map(),
+            "map_jet" => self.jet(stub, types)?,
+            _ => return Ok(None),
+        };
+        let interface = Interface {
+            declaration: stub.clone(),
+            inputs: answer.inputs,
+            leaves: uniforms(linker, "view")?,
+            output: answer.output,
+            precision: self.precision,
+        };
+        lower(&answer.graph, &answer.roots, interface, linker).map(Some)
+    }
+}
+
+/// The uniforms that parameters and the clock are read from.
+pub fn uniforms(linker: &mut Linker, clock: &str) -> Result<Leaves, LowerError> {
+    let params: Handle<GlobalVariable> = linker.global("params")?;
+    let clock = linker.global(clock)?;
+    Ok(Leaves::Uniforms { params, clock })
+}
+
+impl Demand<'_> {
+    fn graph(&self) -> (Graph, Vec<Id>) {
+        self.formula.graph.compacted(&self.formula.value)
+    }
+
+    /// The stub's one argument is a point: a complex input is all of it, real inputs are its components.
+    fn point_inputs(&self) -> Vec<Argument> {
+        let scalars = self.formula.scalars();
+        if scalars == [Ty::Complex] {
+            return vec![Argument::Whole(0)];
+        }
+        (0..scalars.len()).map(|k| Argument::Component(0, u32::try_from(k).unwrap_or(0))).collect()
+    }
+
+    fn leaves(&self, graph: &mut Graph) -> Vec<Id> {
+        let scalars = self.formula.scalars();
+        scalars.iter().enumerate().map(|(k, &ty)| Formula::leaf(graph, k, ty)).collect()
+    }
+
+    fn value(&self) -> Answer {
+        let (graph, roots) = self.graph();
+        Answer { graph, roots, inputs: self.point_inputs(), output: Output::Node(0) }
+    }
+
+    /// All partial derivatives and the value; partials by coordinates that the formula does not take are zero.
+    fn gradient(&self, stub: &Function) -> Result<Answer, LowerError> {
+        let (mut graph, roots) = self.graph();
+        let leaves = self.leaves(&mut graph);
+        let result = stub.result.as_ref().ok_or(LowerError::NoForm("a gradient"))?.ty;
+        let derived = gradient(&mut graph, roots[0], &leaves).map_err(LowerError::NoDerivative)?;
+        let zero = graph.real(0.0);
+        let mut roots = vec![derived.value, zero];
+        let mut parts: Vec<Output> = Vec::new();
+        for partial in derived.partials {
+            parts.push(Output::Node(roots.len()));
+            roots.push(partial);
+        }
+        let dimension = if stub.arguments.is_empty() { 0 } else { self.dimension() };
+        while parts.len() < dimension {
+            parts.push(Output::Node(1));
+        }
+        parts.push(Output::Node(0));
+        let output = Output::Compose(result, parts);
+        Ok(Answer { graph, roots, inputs: self.point_inputs(), output })
+    }
+
+    /// Dimension of the space that real formulas live in.
+    fn dimension(&self) -> usize {
+        if self.formula.scalars().len() == 3 { 3 } else { 2 }
+    }
+
+    /// Value and derivative along the ray o + t d: one tangent, not three.
+    fn ray(&self, types: NagaTypes) -> Result<Answer, LowerError> {
+        let mut graph = Graph::new();
+        let inputs: Vec<Argument> = (0..2)
+            .flat_map(|a| (0..3).map(move |k| Argument::Component(a, k)))
+            .chain([Argument::Whole(2)])
+            .collect();
+        let t = Formula::leaf(&mut graph, 6, Ty::Real);
+        let roots = substitute(&self.formula.graph, &self.formula.value, &mut graph, |g, k| {
+            let k = usize::from(k);
+            let (o, d) = (Formula::leaf(g, k, Ty::Real), Formula::leaf(g, k + 3, Ty::Real));
+            let step = g.mul(t, d);
+            g.add(o, step)
+        });
+        let one = graph.real(1.0);
+        let slope = forward(&mut graph, &roots, &[(t, one)]).map_err(LowerError::NoDerivative)?[0];
+        let slope = slope.unwrap_or_else(|| graph.real(0.0));
+        let output = Output::Compose(types.vec2, vec![Output::Node(0), Output::Node(1)]);
+        Ok(Answer { graph, roots: vec![roots[0], slope], inputs, output })
+    }
+
+    fn map(&self) -> Answer {
+        let (mut graph, roots) = self.graph();
+        let root = graph.widen(roots[0]);
+        Answer { graph, roots: vec![root], inputs: self.point_inputs(), output: Output::Node(0) }
+    }
+
+    fn jet(&self, stub: &Function, types: NagaTypes) -> Result<Answer, LowerError> {
+        let (mut graph, roots) = self.graph();
+        let leaves = self.leaves(&mut graph);
+        let variable = match *leaves.as_slice() {
+            [z] => ComplexVariable::Whole(z),
+            [x, y] => ComplexVariable::Parts(x, y),
+            _ => {
+                let z = Formula::leaf(&mut graph, 0, Ty::Complex);
+                ComplexVariable::Whole(z)
+            }
+        };
+        let result = stub.result.as_ref().ok_or(LowerError::NoForm("a jet"))?.ty;
+        let jet = jet(&mut graph, roots[0], variable).map_err(LowerError::NoDerivative)?;
+        let mut roots = vec![jet.value, jet.dz];
+        let dzbar = match jet.dzbar {
+            Some(dzbar) => {
+                roots.push(dzbar);
+                Output::Node(2)
+            }
+            None => Output::Zero(types.vec2),
+        };
+        let output = Output::Compose(result, vec![Output::Node(0), Output::Node(1), dzbar]);
+        Ok(Answer { graph, roots, inputs: self.point_inputs(), output })
+    }
+}

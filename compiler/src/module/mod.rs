@@ -1,0 +1,89 @@
+//! Finished shader modules: a scene with a formula in it, and the evaluation of rows of numbers.
+
+mod demand;
+mod evaluation;
+mod rows;
+mod scene;
+mod substitute;
+
+pub use evaluation::{Evaluation, What, evaluation};
+pub use rows::{EvalModule, Evaluator, MAX_COLUMNS, MAX_RESULTS};
+pub use scene::SceneModule;
+
+use naga::Module;
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use pullback_grammar::Diagnostic;
+
+use crate::formula::Formula;
+use crate::lower::LowerError;
+
+/// Why a module could not be made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ModuleError {
+    /// A function could not be lowered.
+    Lower(LowerError),
+    /// The finished module is not valid; this is a mistake of ours.
+    Invalid(String),
+}
+
+impl<T: Into<LowerError>> From<T> for ModuleError {
+    fn from(error: T) -> Self {
+        Self::Lower(error.into())
+    }
+}
+
+impl ModuleError {
+    /// The error at the formula's place.
+    #[must_use]
+    pub fn diagnostic(&self, formula: &Formula) -> Diagnostic {
+        let span = formula.span;
+        match self {
+            Self::Lower(LowerError::NoForm(usage)) => Diagnostic::error(
+                "no-gpu-form",
+                span,
+                format!("{usage} cannot be computed on the GPU for these types"),
+            )
+            .with_hint("`eval --on reference` computes it in f64"),
+            Self::Lower(LowerError::NoDerivative(missing)) => Diagnostic::error(
+                "no-derivative",
+                span,
+                format!(
+                    "`{}` has no derivative rule, and a derivative is needed here",
+                    crate::table::row(missing.prim).usage
+                ),
+            ),
+            Self::Lower(LowerError::Demand(message)) => {
+                Diagnostic::error("wrong-demand", span, message.clone())
+            }
+            Self::Lower(LowerError::Link(error)) => Diagnostic::error(
+                "internal-link",
+                span,
+                format!("the shader library could not be linked: {error:?}"),
+            )
+            .with_hint("this is a mistake in pullback; please report the formula"),
+            Self::Invalid(message) => Diagnostic::error(
+                "internal-invalid",
+                span,
+                format!("the generated shader is not valid: {message}"),
+            )
+            .with_hint("this is a mistake in pullback; please report the formula"),
+        }
+    }
+}
+
+/// Validates a finished module.
+pub(crate) fn validate(module: &Module) -> Result<ModuleInfo, ModuleError> {
+    Validator::new(ValidationFlags::all(), Capabilities::default()).validate(module).map_err(
+        |error| {
+            use std::error::Error as _;
+            let mut message = error.as_inner().to_string();
+            let mut source = error.as_inner().source();
+            while let Some(cause) = source {
+                message.push_str(": ");
+                message.push_str(&cause.to_string());
+                source = cause.source();
+            }
+            ModuleError::Invalid(message)
+        },
+    )
+}

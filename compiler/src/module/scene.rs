@@ -1,0 +1,106 @@
+//! A scene with a formula in it.
+
+use naga::valid::ModuleInfo;
+use naga::{Module, ScalarKind, TypeInner};
+
+use super::demand::Demand;
+use super::{ModuleError, validate};
+use crate::link::{Linker, Sources};
+use crate::lower::Precision;
+use crate::program::{Picture, SettingValue};
+use crate::scene::Scene;
+
+/// A validated module with entry points `vertex_main`, `fragment_main` and `compute_main`.
+#[derive(Clone, Debug)]
+pub struct SceneModule {
+    /// The module.
+    pub module: Module,
+    /// What validation found out about it.
+    pub info: ModuleInfo,
+    /// Layout of the template's `Settings`.
+    layout: Vec<Member>,
+    /// Size of the settings' uniform in bytes, a multiple of 16, never 0.
+    pub settings_size: usize,
+}
+
+#[derive(Clone, Debug)]
+struct Member {
+    name: String,
+    offset: usize,
+    kind: ScalarKind,
+    count: usize,
+}
+
+impl SceneModule {
+    /// Splices a picture's formula into its scene: exactly the stubs of the template are compiled, what is not
+    /// reached is left out, and the result is validated.
+    ///
+    /// # Errors
+    /// The formula has no form that the scene needs, such as a missing derivative.
+    pub fn new(picture: &Picture, precision: Precision) -> Result<Self, ModuleError> {
+        let sources = Sources::get();
+        let template = picture.scene.module();
+        let mut linker =
+            Linker::new(vec![template, sources.entry, sources.shared, sources.math]);
+        let mut demand = Demand { formula: &picture.formula, precision };
+        linker.link_entry_points(1, &mut demand)?;
+        let mut module = linker.out;
+        naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
+        let info = validate(&module)?;
+        let (layout, settings_size) = layout(picture.scene);
+        Ok(Self { module, info, layout, settings_size })
+    }
+
+    /// The bytes of the settings' uniform.
+    #[must_use]
+    pub fn pack_settings(&self, settings: &[SettingValue]) -> Vec<u8> {
+        let mut bytes = vec![0; self.settings_size];
+        for member in &self.layout {
+            let Some(setting) = settings.iter().find(|s| s.spec.name == member.name) else {
+                continue;
+            };
+            for (k, &value) in setting.value.iter().take(member.count).enumerate() {
+                let at = member.offset + 4 * k;
+                if let Some(slot) = bytes.get_mut(at..at + 4) {
+                    slot.copy_from_slice(&encode(value, member.kind));
+                }
+            }
+        }
+        bytes
+    }
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "settings are range-checked; rounding to the shader's format is meant"
+)]
+fn encode(value: f64, kind: ScalarKind) -> [u8; 4] {
+    match kind {
+        ScalarKind::Sint => (value as i32).to_le_bytes(),
+        ScalarKind::Uint | ScalarKind::Bool => (value as u32).to_le_bytes(),
+        _ => (value as f32).to_le_bytes(),
+    }
+}
+
+/// Members of the template's `Settings`, and the size of the uniform that holds them.
+fn layout(scene: &Scene) -> (Vec<Member>, usize) {
+    let module = scene.module();
+    let settings = module.global_variables.iter().find(|(_, g)| g.name.as_deref() == Some("settings"));
+    let Some((_, settings)) = settings else { return (Vec::new(), 16) };
+    let TypeInner::Struct { members, span } = &module.types[settings.ty].inner else {
+        return (Vec::new(), 16);
+    };
+    let members = members
+        .iter()
+        .filter_map(|m| {
+            let (kind, count) = match module.types[m.ty].inner {
+                TypeInner::Scalar(scalar) => (scalar.kind, 1),
+                TypeInner::Vector { size, scalar } => (scalar.kind, size as usize),
+                _ => return None,
+            };
+            Some(Member { name: m.name.clone()?, offset: m.offset as usize, kind, count })
+        })
+        .collect();
+    (members, (*span as usize).next_multiple_of(16).max(16))
+}

@@ -1,0 +1,126 @@
+//! Settings of scenes: what can be said in the braces of a `show`.
+
+/// What values a setting takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SettingKind {
+    /// A real number.
+    Real,
+    /// A whole number.
+    Integer,
+    /// A vector of two reals.
+    Vec2,
+    /// A vector of three reals; one real stands for three equal ones.
+    Vec3,
+    /// One of these words; the shader gets its place in the list.
+    Choice(&'static [&'static str]),
+}
+
+/// One setting of a scene.
+#[derive(Debug)]
+pub struct SettingSpec {
+    /// Its name, also that of the member of the template's `Settings`. `center` and `height` of plane scenes are
+    /// the view instead.
+    pub name: &'static str,
+    /// One line with the unit.
+    pub doc: &'static str,
+    /// What values it takes.
+    pub kind: SettingKind,
+    /// Value without a setting.
+    pub default: [f64; 3],
+    /// Least and greatest value of each component.
+    pub range: (f64, f64),
+}
+
+impl SettingSpec {
+    /// A real setting.
+    #[must_use]
+    pub const fn real(name: &'static str, default: f64, range: (f64, f64), doc: &'static str) -> Self {
+        Self { name, doc, kind: SettingKind::Real, default: [default; 3], range }
+    }
+
+    /// A whole-number setting.
+    #[must_use]
+    pub const fn integer(
+        name: &'static str,
+        default: f64,
+        range: (f64, f64),
+        doc: &'static str,
+    ) -> Self {
+        Self { name, doc, kind: SettingKind::Integer, default: [default; 3], range }
+    }
+
+    /// A setting of three reals.
+    #[must_use]
+    pub const fn vec3(
+        name: &'static str,
+        default: [f64; 3],
+        range: (f64, f64),
+        doc: &'static str,
+    ) -> Self {
+        Self { name, doc, kind: SettingKind::Vec3, default, range }
+    }
+
+    /// A colour, linear rgb in 0..1.
+    #[must_use]
+    pub const fn colour(name: &'static str, default: [f64; 3], doc: &'static str) -> Self {
+        Self::vec3(name, default, (0.0, 1.0), doc)
+    }
+
+    /// A choice of words; the first is the default.
+    #[must_use]
+    pub const fn choice(
+        name: &'static str,
+        words: &'static [&'static str],
+        default: f64,
+        doc: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            doc,
+            kind: SettingKind::Choice(words),
+            default: [default; 3],
+            range: (0.0, f64::INFINITY),
+        }
+    }
+
+    /// The centre of the view of a plane scene.
+    #[must_use]
+    pub const fn center() -> Self {
+        Self {
+            name: "center",
+            doc: "world coordinates of the centre of the picture",
+            kind: SettingKind::Vec2,
+            default: [0.0; 3],
+            range: (f64::NEG_INFINITY, f64::INFINITY),
+        }
+    }
+
+    /// The height of the view of a plane scene.
+    #[must_use]
+    pub const fn height(default: f64) -> Self {
+        Self::real("height", default, (1e-30, 1e30), "world units from the bottom to the top of the picture")
+    }
+
+    /// Says what is wrong with a value, if anything.
+    ///
+    /// # Errors
+    /// A component lies outside of the range, or is not a whole number where one is wanted.
+    pub fn check(&self, components: &[f64]) -> Result<(), String> {
+        let (lo, hi) = self.range;
+        for &x in components {
+            if !(lo..=hi).contains(&x) {
+                return Err(format!("`{}` is between {lo:?} and {hi:?}, not {x}", self.name));
+            }
+            if self.kind == SettingKind::Integer && x.fract() != 0.0 {
+                return Err(format!("`{}` is a whole number, not {x}", self.name));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether it belongs to the view and not to the template's `Settings`.
+    #[must_use]
+    pub fn is_view(&self) -> bool {
+        self.kind == SettingKind::Vec2 || self.name == "height"
+    }
+}

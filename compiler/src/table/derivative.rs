@@ -1,0 +1,48 @@
+//! Partial derivatives that more than one row uses.
+
+use crate::ir::{Graph, Id, Prim};
+
+/// 1 / a
+pub fn reciprocal(g: &mut Graph, a: Id) -> Id {
+    let one = g.real(1.0);
+    g.div(one, a)
+}
+
+/// a + c for a constant c
+pub fn plus(g: &mut Graph, a: Id, c: f64) -> Id {
+    let c = g.real(c);
+    g.add(a, c)
+}
+
+/// c - a for a constant c
+pub fn from(g: &mut Graph, c: f64, a: Id) -> Id {
+    let c = g.real(c);
+    g.sub(c, a)
+}
+
+/// c · a for a constant c
+pub fn scaled(g: &mut Graph, c: f64, a: Id) -> Id {
+    let c = g.real(c);
+    g.mul(c, a)
+}
+
+/// a²
+pub fn square(g: &mut Graph, a: Id) -> Id {
+    g.apply(Prim::PowInt(2), &[a])
+}
+
+/// A function of one operand.
+pub fn call(g: &mut Graph, prim: Prim, a: Id) -> Id {
+    g.apply(prim, &[a])
+}
+
+/// √(1 - x) √(1 + x), whose branch cuts are those of asin and acos; for reals √((1 - x)(1 + x)).
+pub fn sqrt_one_minus_square(g: &mut Graph, x: Id) -> Id {
+    let (below, above) = (from(g, 1.0, x), plus(g, x, 1.0));
+    if g.ty(x) == crate::ir::Ty::Real {
+        let product = g.mul(below, above);
+        return call(g, Prim::Sqrt, product);
+    }
+    let (below, above) = (call(g, Prim::Sqrt, below), call(g, Prim::Sqrt, above));
+    g.mul(below, above)
+}

@@ -1,0 +1,138 @@
+//! The operator table: every operation is defined here, once.
+//!
+//! The checker, the evaluator, the simplifier, the derivatives, the lowering, the cost count, the function
+//! reference and the generated tests read it. Adding an operation is adding a row (and its [`Prim`]).
+
+mod arithmetic;
+mod comparison;
+mod complex;
+mod derivative;
+mod exponential;
+mod hyperbolic;
+mod number;
+mod rounding;
+mod special;
+mod trigonometric;
+mod typing;
+
+use std::mem::{Discriminant, discriminant};
+use std::sync::OnceLock;
+
+use naga::{BinaryOperator, MathFunction, UnaryOperator};
+use rustc_hash::FxHashMap;
+
+pub use number::Number;
+pub use typing::Typing;
+
+use crate::ir::{Graph, Id, Prim};
+use crate::reference::Complex;
+
+/// One operation.
+#[derive(Debug)]
+pub struct Row {
+    /// The operation in the IR. For integer powers, one of the family.
+    pub prim: Prim,
+    /// Its word in the text form of the IR.
+    pub mnemonic: &'static str,
+    /// Names in the language, the first is the usual one; empty where there is only a sign.
+    pub names: &'static [&'static str],
+    /// How it is written, such as `atan2(y, x)` or `a + b`.
+    pub usage: &'static str,
+    /// One line: what it is.
+    pub doc: &'static str,
+    /// Types of operands and result.
+    pub typing: Typing,
+    /// Value on reals in `f64`.
+    pub real: Option<fn(&[f64]) -> f64>,
+    /// Value on complex numbers in `f64`, on the principal branch (cuts and signed zeros after C99 Annex G).
+    pub complex: Option<fn(&[Complex]) -> Complex>,
+    /// Derivative.
+    pub derivative: Derivative,
+    /// What a shader does on reals.
+    pub gpu: Gpu,
+    /// Name of the shader function on complex numbers; empty where the lowering writes it out or has none.
+    pub gpu_complex: &'static str,
+    /// Weights of the cost count.
+    pub cost: Weight,
+}
+
+/// Cost of one operation; one addition of reals is 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Weight {
+    /// On reals.
+    pub real: u16,
+    /// On complex numbers.
+    pub complex: u16,
+}
+
+/// How an operation is differentiated.
+#[derive(Clone, Copy, Debug)]
+pub enum Derivative {
+    /// Locally constant: the derivative is zero wherever it exists.
+    Zero,
+    /// The partial derivative by the k-th operand, given the operands and the value. For complex operands this
+    /// is the complex derivative; the operation is holomorphic.
+    Partial(fn(&mut Graph, &[Id], Id, usize) -> Id),
+    /// The pass itself knows: the operation is linear, a product, a quotient, a choice, or not holomorphic.
+    Structural,
+    /// There is no rule yet.
+    Missing,
+}
+
+/// What a shader does on reals.
+#[derive(Clone, Copy, Debug)]
+pub enum Gpu {
+    /// A WGSL operator of two operands.
+    Binary(BinaryOperator),
+    /// A WGSL operator of one operand.
+    Unary(UnaryOperator),
+    /// A WGSL built-in that is good enough on every tier (exact, or correctly rounded).
+    Builtin(MathFunction),
+    /// A function of the shader math library, and the built-in of the fast tier where there is one.
+    Library(&'static str, Option<MathFunction>),
+    /// The lowering writes it out.
+    Structural,
+}
+
+impl Row {
+    /// The operation's value, in `f64`; `None` where the operand types do not fit.
+    #[must_use]
+    pub fn evaluate(&self, prim: Prim, operands: &[Number]) -> Option<Number> {
+        number::evaluate(self, prim, operands)
+    }
+}
+
+/// Every row.
+pub fn rows() -> &'static [Row] {
+    static ROWS: OnceLock<Vec<Row>> = OnceLock::new();
+    ROWS.get_or_init(|| {
+        let mut rows = Vec::new();
+        rows.extend(arithmetic::rows());
+        rows.extend(complex::rows());
+        rows.extend(exponential::rows());
+        rows.extend(trigonometric::rows());
+        rows.extend(hyperbolic::rows());
+        rows.extend(rounding::rows());
+        rows.extend(comparison::rows());
+        rows.extend(special::rows());
+        rows
+    })
+}
+
+/// The row of a primitive.
+#[must_use]
+pub fn row(prim: Prim) -> &'static Row {
+    static INDEX: OnceLock<FxHashMap<Discriminant<Prim>, &'static Row>> = OnceLock::new();
+    let index = INDEX.get_or_init(|| rows().iter().map(|r| (discriminant(&r.prim), r)).collect());
+    // A unit test holds that every primitive has a row; the first row stands in for one that has not.
+    index.get(&discriminant(&prim)).copied().unwrap_or(&rows()[0])
+}
+
+/// The row of a function by its name or alias in the language.
+#[must_use]
+pub fn by_name(name: &str) -> Option<&'static Row> {
+    static INDEX: OnceLock<FxHashMap<&'static str, &'static Row>> = OnceLock::new();
+    let index = INDEX
+        .get_or_init(|| rows().iter().flat_map(|r| r.names.iter().map(move |&n| (n, r))).collect());
+    index.get(name).copied()
+}

@@ -1,0 +1,53 @@
+//! Types of the language.
+
+use std::fmt;
+
+/// Type of a value in the language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Type {
+    /// A real number.
+    Real,
+    /// A complex number.
+    Complex,
+    /// A vector of two to four reals.
+    Vector(u8),
+    /// A truth value.
+    Bool,
+}
+
+impl Type {
+    /// The type that an annotation names.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Some(match name {
+            "real" => Self::Real,
+            "complex" => Self::Complex,
+            "vec2" => Self::Vector(2),
+            "vec3" => Self::Vector(3),
+            "vec4" => Self::Vector(4),
+            "bool" => Self::Bool,
+            _ => return None,
+        })
+    }
+
+    /// Number of real columns that a value has in tables.
+    #[must_use]
+    pub fn columns(self) -> usize {
+        match self {
+            Self::Real | Self::Bool => 1,
+            Self::Complex => 2,
+            Self::Vector(n) => usize::from(n),
+        }
+    }
+}
+
+impl fmt::Display for Type {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Real => f.write_str("real"),
+            Self::Complex => f.write_str("complex"),
+            Self::Vector(n) => write!(f, "vec{n}"),
+            Self::Bool => f.write_str("bool"),
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! Brackets, bars and braces.
+
+use crate::cursor::{Opened, Parser};
+use crate::token::TokenKind;
+use crate::{Diagnostic, Span};
+
+impl Parser<'_> {
+    #[cold]
+    pub(crate) fn complain_not_closed(&mut self, opened: &Opened) {
+        let (open, close) = match opened.kind {
+            TokenKind::LParen => ("(", ")"),
+            _ => ("{", "}"),
+        };
+        let span = self.span();
+        let diagnostic = if matches!(self.kind(), TokenKind::RParen | TokenKind::RBrace) {
+            let message = format!("`{open}` is closed by {}", self.describe());
+            Diagnostic::error("mismatched-closing", span, message)
+                .with_label(format!("expected `{close}`"))
+                .with_hint(format!("write `{close}` here"))
+        } else {
+            let message = format!("missing `{close}`");
+            let before = if self.at(TokenKind::End) {
+                ""
+            } else {
+                "before this"
+            };
+            Diagnostic::error("missing-closing", span, message)
+                .with_label(format!("expected `{close}` {before}").trim_end())
+                .with_hint(format!("add `{close}`"))
+        };
+        self.complain(diagnostic.with_related(opened.span, format!("`{open}` opened here")));
+    }
+
+    #[cold]
+    pub(crate) fn complain_missing_bar(&mut self, opening: Span) {
+        let doubled = self.text.get(opening.end as usize..);
+        let is_doubled = doubled.is_some_and(|rest| rest.starts_with('|'))
+            || self
+                .text
+                .get(..opening.start as usize)
+                .is_some_and(|t| t.ends_with('|'));
+        let hint = if is_doubled {
+            "add `|`, or write `or` between conditions"
+        } else {
+            "add `|`"
+        };
+        self.complain(
+            Diagnostic::error("missing-closing", self.span(), "missing `|`")
+                .with_label("expected `|`")
+                .with_related(opening, "`|` opened here")
+                .with_hint(hint),
+        );
+    }
+
+    #[cold]
+    pub(crate) fn complain_empty_brackets(&mut self, opening: Span) {
+        self.complain(
+            Diagnostic::error(
+                "empty-brackets",
+                opening.join(self.span()),
+                "nothing stands between the brackets",
+            )
+            .with_hint("write an expression, or `(a, b)` for a vector"),
+        );
+    }
+
+    #[cold]
+    pub(crate) fn complain_long_vector(&mut self, span: Span, count: usize) {
+        let message = format!("a vector of {count} components");
+        self.diagnostics.push(
+            Diagnostic::error("long-vector", span, message)
+                .with_label("a vector has two to four components")
+                .with_hint("write a function's name before the bracket if a call is meant"),
+        );
+    }
+
+    #[cold]
+    pub(crate) fn complain_empty_piecewise(&mut self, opening: Span) {
+        self.complain(
+            Diagnostic::error(
+                "empty-piecewise",
+                opening.join(self.span()),
+                "nothing stands between the braces",
+            )
+            .with_hint("write `{ x < 0: -x, else: x }`"),
+        );
+    }
+
+    #[cold]
+    pub(crate) fn complain_after_else(&mut self) {
+        self.complain(
+            Diagnostic::error("else-not-last", self.span(), "a case after `else`")
+                .with_label("never reached")
+                .with_hint("put `else: …` last"),
+        );
+    }
+
+    #[cold]
+    pub(crate) fn complain_missing_colon(&mut self, is_else: bool) {
+        if !is_else && self.at(TokenKind::End) {
+            return;
+        }
+        let hint = if is_else {
+            "write `else: value`"
+        } else {
+            "write `{ condition: value, else: value }`"
+        };
+        let message = format!("missing `:` before {}", self.describe());
+        self.complain(
+            Diagnostic::error("missing-colon", self.span(), message)
+                .with_label("expected `:` and the value of this case")
+                .with_hint(hint),
+        );
+    }
+
+    /// Complains that nothing readable goes on here; `opened` is the bracket around this place.
+    #[cold]
+    pub(crate) fn complain_unexpected(&mut self, opened: Option<&Opened>) {
+        let kind = self.kind();
+        let quoted = self.describe();
+        let defines = kind == TokenKind::Name && self.ahead(1) == TokenKind::Equals;
+        let (code, message, hint) = match kind {
+            TokenKind::RParen | TokenKind::RBrace => (
+                "unmatched-closing",
+                format!("{quoted} without an opening bracket"),
+                Some("remove it, or open the bracket before it"),
+            ),
+            TokenKind::Then | TokenKind::Else => (
+                "unexpected-token",
+                format!("{quoted} without `if`"),
+                Some("write `if c then a else b`"),
+            ),
+            TokenKind::In => (
+                "unexpected-token",
+                "`in` outside of `param`".to_owned(),
+                Some("write `param name = value in lo..hi`"),
+            ),
+            TokenKind::DotDot => (
+                "unexpected-token",
+                format!("{quoted} outside of a range"),
+                Some("write `param name = value in lo..hi`"),
+            ),
+            TokenKind::Where => (
+                "unexpected-token",
+                "`where` cannot stand here".to_owned(),
+                Some("put brackets around the expression with its `where`"),
+            ),
+            TokenKind::Comma => (
+                "unexpected-token",
+                "`,` outside of brackets".to_owned(),
+                Some("write `(a, b)` for a vector"),
+            ),
+            TokenKind::Semicolon => (
+                "unexpected-token",
+                "`;` inside of brackets".to_owned(),
+                Some("write `,` between arguments"),
+            ),
+            TokenKind::Colon => (
+                "unexpected-token",
+                "`:` outside of a list of cases".to_owned(),
+                Some("write `{ condition: value, else: value }`"),
+            ),
+            TokenKind::Name if defines && opened.is_none() => (
+                "missing-separator",
+                format!("{quoted} begins a definition inside of another statement"),
+                Some("put it on a line of its own, or write `;` before it"),
+            ),
+            TokenKind::Name if defines => (
+                "missing-comma",
+                format!("missing `,` before {quoted}"),
+                Some("write `,` between the items"),
+            ),
+            _ => ("unexpected-token", format!("unexpected {quoted}"), None),
+        };
+        let mut diagnostic = Diagnostic::error(code, self.span(), message);
+        diagnostic.hint = hint.map(str::to_owned);
+        if let Some(opened) = opened {
+            diagnostic = diagnostic.with_related(opened.span, "inside of this bracket");
+        }
+        self.complain(diagnostic);
+    }
+}

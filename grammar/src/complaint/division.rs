@@ -1,0 +1,50 @@
+//! `1/2x`: a product without a sign behind a division.
+
+use crate::ast::BinaryOp;
+use crate::cursor::Parser;
+use crate::{Diagnostic, Span};
+
+/// The last division of a chain of products, and what multiplies it without a sign.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Division {
+    operands: Option<(Span, Span)>,
+    factors: Option<Span>,
+}
+
+impl Division {
+    /// What has been read so far, if `op` is a division.
+    pub(crate) fn of(op: BinaryOp, lhs: Span, rhs: Span) -> Self {
+        Self {
+            operands: (op == BinaryOp::Div).then_some((lhs, rhs)),
+            factors: None,
+        }
+    }
+
+    /// Takes in a factor without a sign.
+    pub(crate) fn multiplied_by(&mut self, factor: Span) {
+        self.factors = Some(self.factors.map_or(factor, |factors| factors.join(factor)));
+    }
+}
+
+impl Parser<'_> {
+    /// Shows both readings of a division with factors behind it.
+    pub(crate) fn warn_of(&mut self, division: &Division) {
+        let (Some((lhs, rhs)), Some(factors)) = (division.operands, division.factors) else {
+            return;
+        };
+        let (lhs_text, rhs_text, factors_text) =
+            (self.short(lhs), self.short(rhs), self.short(factors));
+        let read = format!("({lhs_text}/{rhs_text}) {factors_text}");
+        let other = format!("{lhs_text}/({rhs_text} {factors_text})");
+        let span = lhs.join(factors);
+        self.diagnostics.push(
+            Diagnostic::warning(
+                "ambiguous-division",
+                span,
+                "a division is followed by a product without a sign",
+            )
+            .with_label(format!("read as `{read}`"))
+            .with_hint(format!("write `{read}`, or `{other}` if that is meant")),
+        );
+    }
+}

@@ -1,0 +1,228 @@
+//! Statements that are not what they should be.
+
+use crate::ast::{MAX_NESTING, Name};
+use crate::cursor::{Node, Parser};
+use crate::token::TokenKind;
+use crate::{Diagnostic, Span};
+
+impl Parser<'_> {
+    /// Words of other languages before a definition, such as `let`.
+    pub(crate) fn skip_foreign_words(&mut self, head: usize) {
+        if self.position() >= head {
+            return;
+        }
+        let word = self.bump();
+        let name = self.short(self.span());
+        let text = word.text(self.text);
+        let hint = if is_foreign_word(text) {
+            format!("remove it: a definition is `{name} = …` or `{name}(x) = …`")
+        } else if self.ahead(1) == TokenKind::Equals {
+            format!("write `{text}({name}) = …` for a function, `{name} = …` for a constant")
+        } else {
+            format!("write `{name}(x) = …`")
+        };
+        let message = format!("{} does not begin a statement", self.quote(word));
+        self.complain(
+            Diagnostic::error("unknown-statement", word, message)
+                .with_label("expected `name =`, `name(params) =`, `param` or `show`")
+                .with_hint(hint),
+        );
+    }
+
+    /// Complains once about what a statement leaves unread, and reads it for further problems.
+    pub(crate) fn skip_leftovers(&mut self) {
+        self.skip_strays();
+        if self.at(TokenKind::End) {
+            return;
+        }
+        self.complain_unexpected(None);
+        while !self.at(TokenKind::End) {
+            self.bump();
+            while !self.at(TokenKind::End) && !self.begins_operand() {
+                self.bump();
+            }
+            if !self.at(TokenKind::End) {
+                self.read_on();
+            }
+        }
+    }
+
+    fn begins_operand(&self) -> bool {
+        use TokenKind::{Bar, If, Imaginary, LBrace, LParen, Name, Not, Number, Root};
+        match self.kind() {
+            Name => self.ahead(1) != TokenKind::Equals,
+            kind => matches!(
+                kind,
+                Number | Imaginary | LParen | LBrace | Bar | If | Not | Root
+            ),
+        }
+    }
+
+    /// `= value` of a parameter.
+    pub(crate) fn expect_default(&mut self, name: &Name) -> Node {
+        if self.eat(TokenKind::Equals) {
+            return self.disjunction();
+        }
+        let shown = if name.text.is_empty() {
+            "name"
+        } else {
+            &name.text
+        };
+        let span = self.span();
+        let diagnostic =
+            Diagnostic::error("missing-default", span, "missing default of a parameter")
+                .with_label("expected `=` and a value")
+                .with_hint(format!("write `param {shown} = value in lo..hi`"));
+        self.complain(diagnostic);
+        if matches!(self.kind(), TokenKind::In | TokenKind::End) {
+            return self.missing_node();
+        }
+        if self.at(TokenKind::Colon) {
+            self.bump();
+            self.eat(TokenKind::Equals);
+        }
+        self.disjunction()
+    }
+
+    /// `in` without two ends.
+    #[cold]
+    pub(crate) fn complain_bad_range(&mut self, lower: Node) {
+        let span = if lower.span.start == lower.span.end {
+            self.span()
+        } else {
+            lower.span
+        };
+        self.complain(
+            Diagnostic::error("bad-range", span, "a range has two ends")
+                .with_label("expected `lo..hi`")
+                .with_hint("write `in lo..hi`"),
+        );
+        if !self.at(TokenKind::End) && (self.open_parens, self.open_braces) == (0, 0) {
+            self.bump();
+            if self.begins_operand() || self.at(TokenKind::Minus) {
+                self.disjunction();
+            }
+        }
+    }
+
+    /// The name of a scene.
+    pub(crate) fn expect_scene(&mut self) -> Name {
+        self.skip_strays();
+        if self.at(TokenKind::Name) {
+            return self.bump_name();
+        }
+        let message = format!("missing scene before {}", self.describe());
+        let span = self.span();
+        self.complain(
+            Diagnostic::error("missing-name", span, message)
+                .with_label("expected the name of a scene")
+                .with_hint("write `show surface(f)`"),
+        );
+        let end = self.last_span().end;
+        Name {
+            text: String::new(),
+            span: Span::new(end, end),
+        }
+    }
+
+    /// Whether the arguments of a scene follow; complains where there are none.
+    pub(crate) fn expect_subjects(&mut self, scene: &Name) -> bool {
+        let opens = self.at(TokenKind::LParen);
+        if opens && self.ahead(1) != TokenKind::RParen {
+            return true;
+        }
+        let shown = if scene.text.is_empty() {
+            "surface"
+        } else {
+            &scene.text
+        };
+        let span = if opens {
+            self.span().join(self.span_ahead(1))
+        } else {
+            self.span()
+        };
+        let message = format!("nothing to show in `{shown}`");
+        self.complain(
+            Diagnostic::error("missing-arguments", span, message)
+                .with_label("expected a function or formula in brackets")
+                .with_hint(format!("write `show {shown}(f)`")),
+        );
+        if opens {
+            self.bump();
+            self.bump();
+        }
+        while !matches!(self.kind(), TokenKind::End | TokenKind::LBrace) {
+            self.bump();
+        }
+        false
+    }
+
+    /// Whether `=` behind `lhs` makes an equation of the whole statement.
+    pub(crate) fn is_bare_equation(&self, lhs: Node) -> bool {
+        self.is_formula && lhs.span.start == self.first_span().start
+    }
+
+    /// Gives the statement up; said once for each.
+    #[cold]
+    pub(crate) fn complain_too_deep(&mut self, span: Span) {
+        if !self.is_abandoned() {
+            let message = format!("nested more than {MAX_NESTING} deep");
+            self.diagnostics.push(
+                Diagnostic::error("too-deep", span, message)
+                    .with_label("not read from here on")
+                    .with_hint("name parts of it in definitions of their own"),
+            );
+        }
+        self.abandon();
+    }
+
+    /// Goes one level deeper into arguments; false where that is too deep.
+    pub(crate) fn enter_arguments(&mut self) -> bool {
+        let may = self.descend();
+        if !may {
+            let span = self.span();
+            self.complain_too_deep(span);
+        }
+        may
+    }
+
+    /// Comes back from arguments, in which these names held.
+    pub(crate) fn leave_arguments(&mut self, bound: &[Span]) {
+        let text = self.text;
+        for name in bound {
+            self.scope.unbind(name.text(text));
+        }
+        self.ascend();
+    }
+}
+
+/// Words with which definitions begin in other languages.
+fn is_foreign_word(word: &str) -> bool {
+    matches!(
+        word,
+        "let"
+            | "var"
+            | "const"
+            | "def"
+            | "define"
+            | "fn"
+            | "fun"
+            | "func"
+            | "function"
+            | "set"
+            | "val"
+            | "float"
+            | "double"
+            | "int"
+            | "real"
+            | "complex"
+            | "vec2"
+            | "vec3"
+            | "vec4"
+            | "uniform"
+            | "parameter"
+            | "slider"
+            | "global"
+            | "local"
+    )
+}

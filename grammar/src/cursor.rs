@@ -1,0 +1,376 @@
+//! What the productions stand on: a place in the tokens of one statement, the arena, and the complaints so far.
+
+use crate::ast::{Expr, ExprId, Exprs, MAX_NESTING};
+use crate::layout::{Layout, Statement, StatementKind};
+use crate::scope::Scope;
+use crate::token::{Token, TokenKind};
+use crate::{Diagnostic, Span};
+
+/// The state of parsing. The productions are methods in `parser/`, the complaints in `complaint/`.
+pub(crate) struct Parser<'a> {
+    pub(crate) text: &'a str,
+    pub(crate) layout: &'a Layout,
+    pub(crate) scope: Scope<'a>,
+    pub(crate) exprs: Exprs,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Bars open in the innermost bracket: whether the next `|` closes.
+    pub(crate) bars: u32,
+    /// Whether the statement is a bare expression.
+    pub(crate) is_formula: bool,
+    /// Whether an argument may be the bare name of a function.
+    pub(crate) takes_functions: bool,
+    /// Parentheses and braces open, so that a wrong closing one is left to whom it belongs.
+    pub(crate) open_parens: usize,
+    pub(crate) open_braces: usize,
+    tokens: &'a [Token],
+    at: usize,
+    start: usize,
+    end: usize,
+    /// Nesting of each expression in the arena, left operands not counted.
+    heights: Vec<usize>,
+    depth: usize,
+    /// The token at which a problem has been reported: a second one there would be its consequence.
+    complained_at: Option<usize>,
+    abandoned: bool,
+}
+
+/// An expression that has been read, with the span that includes its brackets.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Node {
+    pub(crate) id: ExprId,
+    pub(crate) span: Span,
+}
+
+impl<'a> Parser<'a> {
+    pub(crate) fn new(
+        text: &'a str,
+        tokens: &'a [Token],
+        layout: &'a Layout,
+        scope: Scope<'a>,
+    ) -> Self {
+        Self {
+            text,
+            layout,
+            scope,
+            exprs: Exprs::default(),
+            diagnostics: Vec::new(),
+            bars: 0,
+            is_formula: false,
+            takes_functions: false,
+            open_parens: 0,
+            open_braces: 0,
+            tokens,
+            at: 0,
+            start: 0,
+            end: 0,
+            heights: Vec::new(),
+            depth: 0,
+            complained_at: None,
+            abandoned: false,
+        }
+    }
+
+    /// Goes to the beginning of a statement.
+    pub(crate) fn enter(&mut self, statement: &Statement) {
+        self.at = statement.start;
+        self.start = statement.start;
+        self.end = statement.end.min(self.tokens.len());
+        self.is_formula = statement.kind == StatementKind::Formula;
+        self.depth = 0;
+        self.bars = 0;
+        self.open_parens = 0;
+        self.open_braces = 0;
+        self.takes_functions = false;
+        self.complained_at = None;
+        self.abandoned = false;
+    }
+
+    /// Index of the token here.
+    pub(crate) fn position(&self) -> usize {
+        self.at
+    }
+
+    /// Kind of the token here, [`TokenKind::End`] at the end of the statement.
+    pub(crate) fn kind(&self) -> TokenKind {
+        self.ahead(0)
+    }
+
+    /// Kind of the token `n` places on.
+    pub(crate) fn ahead(&self, n: usize) -> TokenKind {
+        let at = self.at.saturating_add(n);
+        if at >= self.end {
+            return TokenKind::End;
+        }
+        self.tokens.get(at).map_or(TokenKind::End, |t| t.kind)
+    }
+
+    /// Kind of the token before this one, [`TokenKind::End`] at the beginning of the statement.
+    pub(crate) fn behind(&self) -> TokenKind {
+        self.last().map_or(TokenKind::End, |t| t.kind)
+    }
+
+    /// Kind of the token `n` places before the last one.
+    pub(crate) fn behind_by(&self, n: usize) -> TokenKind {
+        match self.at.checked_sub(n + 1) {
+            Some(at) if at >= self.start => self.tokens.get(at).map_or(TokenKind::End, |t| t.kind),
+            _ => TokenKind::End,
+        }
+    }
+
+    /// Whether a token of this kind is here.
+    pub(crate) fn at(&self, kind: TokenKind) -> bool {
+        self.kind() == kind
+    }
+
+    /// Place of the token here; the empty place behind the last token at the end of the statement.
+    pub(crate) fn span(&self) -> Span {
+        if self.at < self.end
+            && let Some(token) = self.tokens.get(self.at)
+        {
+            return token.span;
+        }
+        let end = self.last_span().end;
+        Span::new(end, end)
+    }
+
+    /// Place of the token `n` places on, or of the one here if there is none.
+    pub(crate) fn span_ahead(&self, n: usize) -> Span {
+        let at = self.at.saturating_add(n);
+        match self.tokens.get(at) {
+            Some(token) if at < self.end => token.span,
+            _ => self.span(),
+        }
+    }
+
+    /// Place of the token before this one; the empty place at the beginning of the statement.
+    pub(crate) fn last_span(&self) -> Span {
+        if let Some(token) = self.last() {
+            return token.span;
+        }
+        let start = self.first_span().start;
+        Span::new(start, start)
+    }
+
+    /// Place of the first token of the statement.
+    pub(crate) fn first_span(&self) -> Span {
+        self.tokens
+            .get(self.start)
+            .map_or_else(Span::default, |t| t.span)
+    }
+
+    fn last(&self) -> Option<&Token> {
+        if self.at <= self.start {
+            return None;
+        }
+        self.tokens.get(self.at - 1)
+    }
+
+    /// Whether the token here stands first on its line.
+    pub(crate) fn starts_line(&self) -> bool {
+        self.at < self.end && self.tokens.get(self.at).is_some_and(|t| t.starts_line)
+    }
+
+    /// The text of a token by its index in the file.
+    pub(crate) fn token_text(&self, index: usize) -> &'a str {
+        self.tokens
+            .get(index)
+            .map_or("", |token| token.span.text(self.text))
+    }
+
+    /// Goes past the token here and returns its place.
+    pub(crate) fn bump(&mut self) -> Span {
+        let span = self.span();
+        if self.at < self.end {
+            self.at += 1;
+        }
+        span
+    }
+
+    /// Goes past the token here if it is of this kind.
+    pub(crate) fn eat(&mut self, kind: TokenKind) -> bool {
+        let found = self.at(kind);
+        if found {
+            self.bump();
+        }
+        found
+    }
+
+    /// Goes past tokens that have been complained about by the lexer; what follows from them is not reported.
+    pub(crate) fn skip_strays(&mut self) {
+        while self.eat(TokenKind::Error) {
+            self.complained_at = Some(self.at);
+        }
+    }
+
+    /// Adds an expression to the arena, unless it is nested too deeply.
+    pub(crate) fn node(&mut self, expr: Expr, span: Span) -> Node {
+        let mut height = 0;
+        let lhs = match expr {
+            Expr::Binary { op, lhs, .. } if op != crate::ast::BinaryOp::Pow => Some(lhs),
+            _ => None,
+        };
+        expr.for_each_child(|child| {
+            let below = self.heights.get(child.index()).copied().unwrap_or(0);
+            height = height.max(below + usize::from(Some(child) != lhs));
+        });
+        if height > MAX_NESTING {
+            self.complain_too_deep(span);
+            return self.error_node(span);
+        }
+        self.heights.push(height);
+        Node {
+            id: self.exprs.push(expr, span),
+            span,
+        }
+    }
+
+    /// Adds a stand-in for what could not be read.
+    pub(crate) fn error_node(&mut self, span: Span) -> Node {
+        self.heights.push(0);
+        Node {
+            id: self.exprs.push(Expr::Error, span),
+            span,
+        }
+    }
+
+    /// Reads one level deeper, or gives the statement up where that is too deep.
+    pub(crate) fn nested(&mut self, production: fn(&mut Self) -> Node) -> Node {
+        if !self.descend() {
+            let span = self.span();
+            self.complain_too_deep(span);
+            return self.missing_node();
+        }
+        let node = production(self);
+        self.ascend();
+        node
+    }
+
+    /// Goes one level deeper; false where that is too deep.
+    pub(crate) fn descend(&mut self) -> bool {
+        let may = self.depth < MAX_NESTING;
+        self.depth += usize::from(may);
+        may
+    }
+
+    /// Comes back from a level.
+    pub(crate) fn ascend(&mut self) {
+        self.depth = self.depth.saturating_sub(1);
+    }
+
+    /// Leaves the rest of the statement unread.
+    pub(crate) fn abandon(&mut self) {
+        self.at = self.end;
+        self.complained_at = Some(self.end);
+        self.abandoned = true;
+    }
+
+    /// Whether the rest of the statement is left unread.
+    pub(crate) fn is_abandoned(&self) -> bool {
+        self.abandoned
+    }
+
+    /// Reports a problem at the token here, unless it follows from one that has been reported.
+    pub(crate) fn complain(&mut self, diagnostic: Diagnostic) {
+        if self.complained_at != Some(self.at) {
+            self.complained_at = Some(self.at);
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Goes to the next comma or closing bracket of the list that is being read.
+    pub(crate) fn skip_to_separator(&mut self) {
+        let mut depth = 0_usize;
+        loop {
+            match self.kind() {
+                TokenKind::End => return,
+                TokenKind::Comma if depth == 0 => return,
+                TokenKind::RParen | TokenKind::RBrace if depth == 0 => return,
+                TokenKind::RParen | TokenKind::RBrace => depth -= 1,
+                TokenKind::LParen | TokenKind::LBrace => depth += 1,
+                _ => {}
+            }
+            self.bump();
+        }
+    }
+
+    /// Goes past an opening bracket; the bars around it do not count inside.
+    pub(crate) fn open(&mut self) -> Opened {
+        let kind = self.kind();
+        if kind == TokenKind::LParen {
+            self.open_parens += 1;
+        } else {
+            self.open_braces += 1;
+        }
+        Opened {
+            kind,
+            bars: std::mem::take(&mut self.bars),
+            takes_functions: std::mem::take(&mut self.takes_functions),
+            span: self.bump(),
+        }
+    }
+
+    /// After an element of a list: goes past a comma (true, another follows) or the closing bracket (false).
+    pub(crate) fn separator(&mut self, opened: &Opened) -> bool {
+        if self.eat(TokenKind::Comma) {
+            return true;
+        }
+        if !self.at(opened.closing()) && !self.is_foreign_closing(opened) {
+            self.complain_unexpected(Some(opened));
+            self.skip_to_separator();
+            if self.eat(TokenKind::Comma) {
+                return true;
+            }
+        }
+        self.close(opened);
+        false
+    }
+
+    /// Goes past the closing bracket, or complains that there is none.
+    pub(crate) fn close(&mut self, opened: &Opened) {
+        if opened.kind == TokenKind::LParen {
+            self.open_parens = self.open_parens.saturating_sub(1);
+        } else {
+            self.open_braces = self.open_braces.saturating_sub(1);
+        }
+        self.bars = opened.bars;
+        self.takes_functions = opened.takes_functions;
+        if self.eat(opened.closing()) {
+            return;
+        }
+        self.complain_not_closed(opened);
+        let other = match self.kind() {
+            TokenKind::RParen => self.open_parens,
+            TokenKind::RBrace => self.open_braces,
+            _ => return,
+        };
+        if other == 0 {
+            self.bump();
+        }
+    }
+
+    /// Whether the token here closes, but not this bracket.
+    fn is_foreign_closing(&self, opened: &Opened) -> bool {
+        let kind = self.kind();
+        kind == TokenKind::End
+            || matches!(kind, TokenKind::RParen | TokenKind::RBrace) && kind != opened.closing()
+    }
+}
+
+/// An opening bracket that has been read, and what it hides until it is closed.
+pub(crate) struct Opened {
+    pub(crate) kind: TokenKind,
+    pub(crate) span: Span,
+    bars: u32,
+    takes_functions: bool,
+}
+
+impl Opened {
+    /// What closes it.
+    pub(crate) fn closing(&self) -> TokenKind {
+        if self.kind == TokenKind::LParen {
+            TokenKind::RParen
+        } else {
+            TokenKind::RBrace
+        }
+    }
+}

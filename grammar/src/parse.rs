@@ -1,0 +1,143 @@
+//! Text to syntax tree.
+
+use crate::ast::{File, MAX_SOURCE_BYTES};
+use crate::cursor::Parser;
+use crate::layout::layout;
+use crate::scope::Scope;
+use crate::token::tokenize;
+use crate::{Diagnostic, Severity, Span};
+
+/// Most errors, and most warnings, that are reported for one file.
+const MAX_DIAGNOSTICS: usize = 200;
+
+/// A syntax tree and every problem of its text.
+#[derive(Clone, Debug, Default)]
+pub struct Parsed {
+    /// The tree; [`Expr::Error`](crate::ast::Expr::Error) stands where the text could not be read.
+    pub file: File,
+    /// The problems, in the order of the text.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Parsed {
+    /// Whether the text has no meaning as it is.
+    #[must_use]
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+}
+
+/// Reads a file. `is_function` says which names are builtin functions; those that the file defines are found here.
+///
+/// Never fails: what cannot be read is left out of the tree and reported. Time and memory are linear in the length.
+#[must_use]
+pub fn parse(text: &str, is_function: &dyn Fn(&str) -> bool) -> Parsed {
+    if text.len() > MAX_SOURCE_BYTES {
+        return too_large(text.len());
+    }
+    let (tokens, mut diagnostics) = tokenize(text);
+    if tokens.is_empty() && diagnostics.is_empty() {
+        diagnostics.push(
+            Diagnostic::error("empty-source", Span::default(), "there is no formula")
+                .with_label("nothing but blanks and comments")
+                .with_hint("write a formula, such as `x^2 + y^2 - 1`"),
+        );
+    }
+    let layout = layout(&tokens);
+    let mut parser = Parser::new(text, &tokens, &layout, Scope::new(is_function));
+    parser.collect_definitions();
+    let items = parser.file();
+    diagnostics.append(&mut parser.diagnostics);
+    diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
+    limit(&mut diagnostics, Severity::Error);
+    limit(&mut diagnostics, Severity::Warning);
+    Parsed {
+        file: File {
+            items,
+            exprs: parser.exprs,
+        },
+        diagnostics,
+    }
+}
+
+/// Reads a file that may not be text.
+///
+/// The place of a complaint about bytes that are not UTF-8 is the empty span at the first of them.
+#[must_use]
+pub fn parse_bytes(bytes: &[u8], is_function: &dyn Fn(&str) -> bool) -> Parsed {
+    if bytes.len() > MAX_SOURCE_BYTES {
+        return too_large(bytes.len());
+    }
+    let error = match std::str::from_utf8(bytes) {
+        Ok(text) => return parse(text, is_function),
+        Err(error) => error,
+    };
+    let at = error.valid_up_to();
+    let offset = u32::try_from(at).unwrap_or(u32::MAX);
+    let hint = if matches!(bytes, [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..]) {
+        "the file begins as UTF-16 does; save it as UTF-8"
+    } else {
+        "save the file as UTF-8"
+    };
+    let value = bytes.get(at).copied().unwrap_or(0);
+    only(
+        Diagnostic::error(
+            "not-utf8",
+            Span::new(offset, offset),
+            format!("the file is not UTF-8: byte {value:#04x} at offset {at}"),
+        )
+        .with_hint(hint),
+    )
+}
+
+/// A file that is refused unread.
+fn too_large(length: usize) -> Parsed {
+    let message = format!("the file has {length} bytes");
+    only(
+        Diagnostic::error("source-too-large", Span::default(), message)
+            .with_label(format!("at most {MAX_SOURCE_BYTES} bytes are read"))
+            .with_hint("split it, or give a smaller file"),
+    )
+}
+
+/// No tree and one problem.
+fn only(diagnostic: Diagnostic) -> Parsed {
+    Parsed {
+        diagnostics: vec![diagnostic],
+        ..Parsed::default()
+    }
+}
+
+/// Keeps the first of the problems of one severity, and says that there are more.
+fn limit(diagnostics: &mut Vec<Diagnostic>, severity: Severity) {
+    let count = diagnostics
+        .iter()
+        .filter(|d| d.severity == severity)
+        .count();
+    if count <= MAX_DIAGNOSTICS {
+        return;
+    }
+    let mut kept = 0;
+    let mut last = Span::default();
+    diagnostics.retain(|diagnostic| {
+        if diagnostic.severity != severity {
+            return true;
+        }
+        kept += 1;
+        if kept <= MAX_DIAGNOSTICS {
+            last = diagnostic.span;
+        }
+        kept <= MAX_DIAGNOSTICS
+    });
+    let noun = match severity {
+        Severity::Error => "errors",
+        Severity::Warning => "warnings",
+    };
+    let mut summary = Diagnostic::error(
+        "too-many-problems",
+        last,
+        format!("{count} {noun}, of which the first {MAX_DIAGNOSTICS} are listed"),
+    );
+    summary.severity = severity;
+    diagnostics.push(summary.with_hint("mend these first"));
+}

@@ -1,0 +1,12 @@
+//! The productions, one function each; `grammar.ebnf` at the root of this crate is the same in one page.
+//!
+//! What is no production lives elsewhere: the tokens and recovery in `cursor.rs`, the complaints in `complaint/`.
+
+mod arithmetic;
+mod call;
+mod expression;
+mod logic;
+mod postfix;
+mod primary;
+mod show;
+mod statement;
