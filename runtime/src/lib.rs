@@ -9,7 +9,6 @@ pub mod evaluate;
 pub mod image_file;
 pub mod render;
 pub mod rows;
-pub mod settings;
 
 mod buffers;
 mod tiles;

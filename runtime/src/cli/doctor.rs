@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
-use pullback_compiler::What;
+use pullback_compiler::{Precision, What};
 use pullback_runtime::device::{self, AdapterSummary};
 use pullback_runtime::evaluate::Surroundings;
 use pullback_runtime::{Error, Gpu, GpuEvaluator};
@@ -104,7 +104,7 @@ fn trial(adapter: &wgpu::Adapter) -> Result<String, Error> {
         .program
         .ok_or_else(|| invalid("the trial formula does not compile"))?;
     let module = program
-        .eval_module(What::Value)
+        .eval_module(0, What::Value, Precision::Accurate)
         .map_err(|_| invalid("the trial formula does not compile"))?;
     let start = Instant::now();
     let gpu = Gpu::from_adapter(adapter)?;

@@ -10,7 +10,7 @@ use pullback_grammar::Diagnostic;
 use pullback_grammar::ast::MAX_SOURCE_BYTES;
 
 use super::failure::Failure;
-use super::{Console, Input};
+use super::{Console, Input, Which};
 
 /// A program and the text that it comes from.
 pub(super) struct Source {
@@ -45,6 +45,26 @@ impl Source {
                 warnings: compilation.diagnostics.len(),
             }),
             _ => Err(Failure::Program),
+        }
+    }
+
+    /// Index of the picture that is meant; the first if none is named.
+    pub(super) fn picture(&self, which: Which, console: &Console) -> Result<usize, Failure> {
+        let count = self.program.pictures().len();
+        match which.show {
+            None => {
+                if count > 1 {
+                    console.note(&format!(
+                        "taking the first of {count} pictures; choose with --show"
+                    ));
+                }
+                Ok(0)
+            }
+            Some(n) if (1..=count).contains(&n) => Ok(n - 1),
+            Some(n) => Err(Failure::usage(format!(
+                "--show {n}: this program has {count} picture{}",
+                if count == 1 { "" } else { "s" }
+            ))),
         }
     }
 
