@@ -1,1 +1,22 @@
-//! The runtime.
+//! The thin wgpu layer of pullback: devices, pictures in tiles, evaluation in batches, and image files.
+//!
+//! The compiler hands over validated shader modules; this crate runs them. Nothing here prints or exits, no
+//! function panics on any input or on a failing device, and every failure is an [`Error`].
+
+pub mod device;
+pub mod error;
+pub mod evaluate;
+pub mod image_file;
+pub mod render;
+pub mod rows;
+pub mod settings;
+
+mod buffers;
+mod tiles;
+mod uniforms;
+
+pub use device::{AdapterChoice, AdapterSummary, Gpu};
+pub use error::Error;
+pub use evaluate::GpuEvaluator;
+pub use image_file::{AtomicFile, Metadata};
+pub use render::{Frame, Pipeline, Renderer, RowSink, Size, View};

@@ -1,0 +1,210 @@
+//! Arguments, and what each command does.
+
+mod check;
+mod console;
+mod doctor;
+mod emit;
+mod eval;
+mod failure;
+mod functions;
+mod overrides;
+mod progress;
+mod render;
+mod scenes;
+mod source;
+mod spelling;
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use pullback_runtime::AdapterChoice;
+
+pub(crate) use console::Console;
+use overrides::Assignment;
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  success
+  1  the formula or program has errors
+  2  the command line is wrong
+  3  no graphics device, or it failed
+  4  a file or stream could not be read or written";
+
+/// From a formula to its picture, its derivatives and its shaders.
+#[derive(Debug, Parser)]
+#[command(name = "pullback", version, after_help = EXIT_CODES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+    /// Print nothing on the standard error but errors and warnings
+    #[arg(short, long, global = true)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Draw the picture of a formula
+    #[command(after_help = EXIT_CODES)]
+    Render(render::RenderArguments),
+    /// Write the shader of a formula in a language of your choice
+    #[command(after_help = EXIT_CODES)]
+    Emit(emit::EmitArguments),
+    /// Look for errors
+    #[command(after_help = EXIT_CODES)]
+    Check(check::CheckArguments),
+    /// Evaluate a formula at points
+    #[command(after_help = EXIT_CODES)]
+    Eval(eval::EvalArguments),
+    /// Say what this machine offers and what is missing
+    #[command(after_help = EXIT_CODES)]
+    Doctor,
+    /// List the functions of the language
+    Functions(functions::FunctionsArguments),
+    /// List the scenes with their settings
+    Scenes(scenes::ScenesArguments),
+}
+
+/// What to work on.
+#[derive(Debug, Args)]
+struct Input {
+    /// A file (if it exists or ends in .pull), a formula, or - for the standard input
+    // So that `-x^2` is a formula.
+    #[arg(value_name = "FILE|FORMULA", allow_hyphen_values = true)]
+    input: OsString,
+}
+
+/// Values for the names of a program.
+#[derive(Debug, Args)]
+struct Settings {
+    /// Give a parameter or a setting of the scene a value; numbers of a vector are separated by commas
+    #[arg(long = "set", value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    set: Vec<Assignment>,
+    /// The animation clock in seconds
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    time: f64,
+}
+
+/// Where to compute.
+#[derive(Debug, Args)]
+struct Device {
+    /// The graphics adapter: auto, gpu, software, or a part of its name
+    #[arg(long, default_value = "auto", value_name = "NAME")]
+    adapter: AdapterChoice,
+}
+
+/// Where a result goes.
+#[derive(Debug, Args)]
+struct Output {
+    /// The file to write; - is the standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// How numbers are computed on the device.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Precision {
+    /// Single precision with our own functions, of declared error
+    Accurate,
+}
+
+impl Arguments {
+    /// Reads the process's arguments; tells what is wrong with them and exits if they cannot be read.
+    pub(crate) fn read() -> Self {
+        let arguments: Vec<OsString> = std::env::args_os().collect();
+        let mut command = Self::command();
+        // A formula may begin with a hyphen, so clap would take a misspelt option for one.
+        if let Some(message) = unknown_option(&command, &arguments) {
+            command.error(ErrorKind::UnknownArgument, message).exit();
+        }
+        Self::parse_from(arguments)
+    }
+}
+
+/// What is wrong with the first `--option` that no command knows, if there is one.
+fn unknown_option(command: &clap::Command, arguments: &[OsString]) -> Option<String> {
+    let commands = command.get_subcommands().chain([command]);
+    let mut known: Vec<&str> = commands
+        .flat_map(clap::Command::get_arguments)
+        .filter_map(clap::Arg::get_long)
+        .collect();
+    known.extend(["help", "version"]);
+    let unknown = arguments
+        .iter()
+        .skip(1)
+        .map(|argument| argument.to_string_lossy())
+        .take_while(|argument| argument != "--")
+        .find_map(|argument| {
+            let name = argument.strip_prefix("--")?.split('=').next()?.to_owned();
+            (!known.contains(&name.as_str())).then_some(name)
+        })?;
+    let mut message = format!("unexpected argument '--{unknown}' found");
+    if let Some(nearest) = spelling::nearest(&unknown, known) {
+        message += &format!("\n\n  tip: a similar argument exists: '--{nearest}'");
+    }
+    Some(message)
+}
+
+/// Runs the command; returns the exit code.
+pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
+    let done = match arguments.command {
+        Command::Render(arguments) => render::run(&arguments, console),
+        Command::Emit(arguments) => emit::run(&arguments, console),
+        Command::Check(arguments) => check::run(&arguments, console),
+        Command::Eval(arguments) => eval::run(&arguments, console),
+        Command::Doctor => doctor::run(console),
+        Command::Functions(arguments) => functions::run(&arguments),
+        Command::Scenes(arguments) => scenes::run(&arguments),
+    };
+    match done {
+        Ok(()) => 0,
+        Err(failure) => failure.report(console),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(line: &str) -> Result<Arguments, clap::Error> {
+        Arguments::try_parse_from(line.split(' '))
+    }
+
+    #[test]
+    fn the_definition_is_sound() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_formula_may_begin_with_a_hyphen() {
+        let check = |line: &str, expected: &str| {
+            let Command::Render(read) = parse(line).unwrap().command else {
+                panic!("{line}");
+            };
+            assert_eq!(read.input.input, expected, "{line}");
+        };
+        check("pullback render -x^2 -o a.png", "-x^2");
+        check("pullback render -o a.png -x^2", "-x^2");
+        check("pullback render --center -1,-2 -x", "-x");
+        check("pullback render -", "-");
+        check("pullback render -- --x", "--x");
+    }
+
+    #[test]
+    fn misspelt_options() {
+        let check = |line: &str, expected: Option<&str>| {
+            let arguments: Vec<OsString> = line.split(' ').map(OsString::from).collect();
+            let found = unknown_option(&Arguments::command(), &arguments);
+            assert_eq!(found.is_some(), expected.is_some(), "{line}");
+            if let (Some(found), Some(expected)) = (found, expected) {
+                assert!(found.contains(expected), "{found}");
+            }
+        };
+        check("pullback render --sixe 3 x", Some("'--size'"));
+        check("pullback render --size=3x3 x --set k=1", None);
+        check("pullback --help", None);
+        check("pullback eval x --zzzzzz=1", Some("--zzzzzz"));
+        check("pullback eval -- --x", None);
+    }
+}

@@ -1,0 +1,298 @@
+//! `pullback eval`
+
+use std::ffi::{OsStr, OsString};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, BufWriter, Write};
+
+use clap::{Args, ValueEnum};
+use pullback_compiler::{Evaluator, What};
+use pullback_runtime::evaluate::Surroundings;
+use pullback_runtime::rows::{self, Number, RowError, RowReader};
+use pullback_runtime::{Gpu, GpuEvaluator};
+
+use super::failure::Failure;
+use super::progress::Progress;
+use super::source::Source;
+use super::{Console, Device, Input, Precision, Settings, overrides};
+
+/// Rows that are read, evaluated and written at a time.
+const BATCH: usize = 1 << 17;
+/// Bad rows that are told before the rest is left unread.
+const MAX_ERRORS: usize = 20;
+
+/// Arguments of `pullback eval`.
+#[derive(Debug, Args)]
+pub(super) struct EvalArguments {
+    #[command(flatten)]
+    input: Input,
+    /// What to compute
+    #[arg(long, value_enum, default_value_t = Part::Value)]
+    what: Part,
+    /// Who computes it
+    #[arg(long, value_enum, default_value_t = Place::Gpu)]
+    on: Place,
+    /// How numbers are computed on the device
+    #[arg(long, value_enum, default_value_t = Precision::Accurate)]
+    precision: Precision,
+    /// Rows of numbers, one column for each real argument, two for a complex one, three for a vec3; # comments;
+    /// - is the standard input
+    #[arg(long, value_name = "FILE")]
+    points: Option<OsString>,
+    #[command(flatten)]
+    settings: Settings,
+    /// The value of `pixel`
+    #[arg(long, default_value_t = 0.0)]
+    pixel: f64,
+    #[command(flatten)]
+    device: Device,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Part {
+    /// The value
+    Value,
+    /// The value, then the gradient
+    Gradient,
+    /// The value, then the complex derivative
+    Derivative,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Place {
+    /// The graphics adapter, in single precision
+    Gpu,
+    /// The processor, in double precision
+    Reference,
+}
+
+/// Evaluates at each row.
+pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Failure> {
+    let stdin = Some(OsStr::new("-"));
+    if arguments.points.as_deref() == stdin && arguments.input.input == "-" {
+        return Err(Failure::usage(
+            "the standard input cannot be both the program and the points",
+        ));
+    }
+    let source = Source::open(&arguments.input, console)?;
+    let what = match arguments.what {
+        Part::Value => What::Value,
+        Part::Gradient => What::Gradient,
+        Part::Derivative => What::Derivative,
+    };
+    let params = overrides::for_values(&arguments.settings.set, &source.program)?;
+    let surroundings = Surroundings {
+        params: &params,
+        time: arguments.settings.time,
+        pixel: arguments.pixel,
+    };
+    match arguments.on {
+        Place::Reference => {
+            let evaluator = source.expect(source.program.evaluator(what), console)?;
+            let mut table = Table::open(arguments, evaluator.inputs())?;
+            let mut machine = Reference {
+                evaluator,
+                surroundings,
+            };
+            table.run(&mut machine, console)
+        }
+        Place::Gpu => {
+            // The only tier so far.
+            let Precision::Accurate = arguments.precision;
+            let module = source.expect(source.program.eval_module(what), console)?;
+            let mut table = Table::open(arguments, &module.inputs)?;
+            let gpu = Gpu::open(&arguments.device.adapter)?;
+            console.note(&format!("adapter: {}", gpu.adapter()));
+            let mut machine = OnDevice {
+                evaluator: GpuEvaluator::new(&gpu, &module)?,
+                surroundings,
+            };
+            table.run(&mut machine, console)
+        }
+    }
+}
+
+/// Something that evaluates rows.
+trait Machine {
+    type Number: Number;
+    fn outputs(&self) -> usize;
+    fn eval(
+        &mut self,
+        count: usize,
+        rows: &[Self::Number],
+        results: &mut Vec<Self::Number>,
+    ) -> Result<(), Failure>;
+}
+
+struct Reference<'a> {
+    evaluator: Evaluator,
+    surroundings: Surroundings<'a>,
+}
+
+impl Machine for Reference<'_> {
+    type Number = f64;
+
+    fn outputs(&self) -> usize {
+        self.evaluator.outputs().len()
+    }
+
+    fn eval(&mut self, count: usize, rows: &[f64], results: &mut Vec<f64>) -> Result<(), Failure> {
+        let (inputs, outputs) = (self.evaluator.inputs().len(), self.outputs());
+        let Surroundings {
+            params,
+            time,
+            pixel,
+        } = self.surroundings;
+        results.resize(count * outputs, 0.0);
+        for i in 0..count {
+            let row = &rows[i * inputs..(i + 1) * inputs];
+            let result = &mut results[i * outputs..(i + 1) * outputs];
+            self.evaluator.eval(params, time, pixel, row, result);
+        }
+        Ok(())
+    }
+}
+
+struct OnDevice<'a> {
+    evaluator: GpuEvaluator,
+    surroundings: Surroundings<'a>,
+}
+
+impl Machine for OnDevice<'_> {
+    type Number = f32;
+
+    fn outputs(&self) -> usize {
+        self.evaluator.outputs().len()
+    }
+
+    fn eval(&mut self, count: usize, rows: &[f32], results: &mut Vec<f32>) -> Result<(), Failure> {
+        Ok(self
+            .evaluator
+            .eval(self.surroundings, count, rows, results)?)
+    }
+}
+
+/// Where the rows come from.
+enum Table {
+    /// The one row of a function without arguments.
+    Single,
+    /// A file or the standard input.
+    Text {
+        name: String,
+        reader: RowReader<Box<dyn BufRead>>,
+    },
+}
+
+impl Table {
+    fn open(arguments: &EvalArguments, inputs: &[String]) -> Result<Self, Failure> {
+        let Some(points) = &arguments.points else {
+            if inputs.is_empty() {
+                return Ok(Self::Single);
+            }
+            let columns = inputs.join(", ");
+            return Err(Failure::usage_hint(
+                format!("no points to evaluate at; a row has {columns}"),
+                "give --points FILE, or --points - and rows on the standard input",
+            ));
+        };
+        if inputs.is_empty() {
+            return Err(Failure::usage(
+                "this function has no arguments: leave --points out",
+            ));
+        }
+        let (name, input): (String, Box<dyn BufRead>) = if points == "-" {
+            (
+                "standard input".into(),
+                Box::new(BufReader::new(io::stdin())),
+            )
+        } else {
+            let name = points.to_string_lossy().into_owned();
+            match File::open(points) {
+                Ok(file) => (name, Box::new(BufReader::with_capacity(1 << 18, file))),
+                Err(error) => return Err(Failure::Io { what: name, error }),
+            }
+        };
+        Ok(Self::Text {
+            name,
+            reader: RowReader::new(input, inputs.len()),
+        })
+    }
+
+    fn run<M: Machine>(&mut self, machine: &mut M, console: &Console) -> Result<(), Failure> {
+        let mut output = BufWriter::with_capacity(1 << 18, io::stdout().lock());
+        let mut results = Vec::new();
+        match self {
+            Self::Single => {
+                machine.eval(1, &[], &mut results)?;
+                rows::write_rows(&mut output, machine.outputs(), &results)
+                    .map_err(Failure::stdout)?;
+            }
+            Self::Text { name, reader } => {
+                let mut progress = Progress::new(console);
+                let mut rows = Vec::new();
+                let mut done = 0;
+                loop {
+                    rows.clear();
+                    results.clear();
+                    let mut errors = Vec::new();
+                    let count = reader
+                        .read(BATCH, &mut rows, &mut errors)
+                        .map_err(|error| reading(name, error))?;
+                    if !errors.is_empty() {
+                        drop(output);
+                        return Err(report(name, reader, errors, &mut rows, console));
+                    }
+                    if count == 0 {
+                        break;
+                    }
+                    machine.eval(count, &rows, &mut results)?;
+                    rows::write_rows(&mut output, machine.outputs(), &results)
+                        .map_err(Failure::stdout)?;
+                    done += count as u64;
+                    progress.update(done, 0);
+                }
+                progress.finish();
+                match reader.overflows() {
+                    0 => {}
+                    n => console.warning(&format!(
+                        "{name}: {n} number{} beyond the format, taken as infinite",
+                        if n == 1 { "" } else { "s" }
+                    )),
+                }
+            }
+        }
+        output.flush().map_err(Failure::stdout)
+    }
+}
+
+fn reading(name: &str, error: io::Error) -> Failure {
+    Failure::Io {
+        what: name.to_owned(),
+        error,
+    }
+}
+
+/// Tells the bad row and those after it.
+fn report<T: Number>(
+    name: &str,
+    reader: &mut RowReader<Box<dyn BufRead>>,
+    mut errors: Vec<RowError>,
+    rows: &mut Vec<T>,
+    console: &Console,
+) -> Failure {
+    while errors.len() < MAX_ERRORS {
+        rows.clear();
+        let before = errors.len();
+        match reader.read(BATCH, rows, &mut errors) {
+            Ok(0) if errors.len() == before => break,
+            Ok(_) => {}
+            Err(error) => return reading(name, error),
+        }
+    }
+    for error in &errors {
+        console.error(&format!("{name}: {error}"));
+    }
+    if errors.len() >= MAX_ERRORS {
+        console.note("the rest was not read");
+    }
+    Failure::Data
+}

@@ -1,0 +1,111 @@
+//! The program on the command line: read, compiled, its diagnostics told.
+
+use std::ffi::OsStr;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use pullback_compiler::Program;
+use pullback_grammar::Diagnostic;
+use pullback_grammar::ast::MAX_SOURCE_BYTES;
+
+use super::failure::Failure;
+use super::{Console, Input};
+
+/// A program and the text that it comes from.
+pub(super) struct Source {
+    /// What to call it in messages.
+    pub(super) name: String,
+    /// Its text; what is not UTF-8 is replaced.
+    pub(super) text: String,
+    /// For the name of an output file: that of the input without folder and ending.
+    pub(super) stem: String,
+    /// The meaning.
+    pub(super) program: Program,
+    /// Warnings told so far.
+    pub(super) warnings: usize,
+}
+
+impl Source {
+    /// Reads and compiles the input, and tells its diagnostics.
+    ///
+    /// A program with errors is a [`Failure::Program`].
+    pub(super) fn open(input: &Input, console: &Console) -> Result<Self, Failure> {
+        let (name, stem, bytes) = read(&input.input)?;
+        let compilation = pullback_compiler::compile_bytes(&bytes);
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        console.diagnostics(&compilation.diagnostics, &name, &text);
+        let errors = count(&compilation.diagnostics);
+        match compilation.program {
+            Some(program) if errors == 0 => Ok(Self {
+                name,
+                text,
+                stem,
+                program,
+                warnings: compilation.diagnostics.len(),
+            }),
+            _ => Err(Failure::Program),
+        }
+    }
+
+    /// Passes on what a later stage of the compiler made, or tells its diagnostics.
+    pub(super) fn expect<T>(
+        &self,
+        made: Result<T, Vec<Diagnostic>>,
+        console: &Console,
+    ) -> Result<T, Failure> {
+        made.map_err(|diagnostics| {
+            console.diagnostics(&diagnostics, &self.name, &self.text);
+            Failure::Program
+        })
+    }
+}
+
+fn count(diagnostics: &[Diagnostic]) -> usize {
+    diagnostics.iter().filter(|d| d.is_error()).count()
+}
+
+/// Name, stem and bytes of the input.
+fn read(input: &OsStr) -> Result<(String, String, Vec<u8>), Failure> {
+    let shown = input.to_string_lossy().into_owned();
+    if input == "-" {
+        let bytes = limited(io::stdin()).map_err(|error| Failure::Io {
+            what: "standard input".into(),
+            error,
+        })?;
+        return Ok(("standard input".into(), "pullback".into(), bytes));
+    }
+    let path = Path::new(input);
+    if is_file(path) {
+        let bytes = File::open(path)
+            .and_then(limited)
+            .map_err(|error| Failure::Io {
+                what: shown.clone(),
+                error,
+            })?;
+        let stem = path.file_stem().map_or_else(
+            || "pullback".into(),
+            |stem| stem.to_string_lossy().into_owned(),
+        );
+        return Ok((shown, stem, bytes));
+    }
+    Ok((
+        "formula".into(),
+        "pullback".into(),
+        input.as_encoded_bytes().to_vec(),
+    ))
+}
+
+/// Whether an argument names a file: it exists, or says that it should.
+fn is_file(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "pull") || path.is_file()
+}
+
+/// No more than shows the compiler that it is too much.
+fn limited(input: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    input
+        .take(MAX_SOURCE_BYTES as u64 + 1)
+        .read_to_end(&mut bytes)?;
+    Ok(bytes)
+}

@@ -1,0 +1,369 @@
+//! PNG files, written row by row, complete or not at all, with a note of how the picture came about.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use crate::{Error, RowSink, Size};
+
+/// Bytes of compressed data in a chunk.
+const CHUNK: usize = 1 << 16;
+/// Pictures of more pixels are compressed quickly rather than well.
+const QUICK_FROM: u64 = 4_000_000;
+
+/// What a picture file says of itself: keywords and texts, in order.
+///
+/// Keywords are Latin-1 of at most 79 characters; texts any Unicode. Put no names of files in here.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Metadata(pub Vec<(&'static str, String)>);
+
+/// A file that appears under its name only when it is complete.
+#[derive(Debug)]
+pub struct AtomicFile {
+    output: Output,
+}
+
+#[derive(Debug)]
+enum Output {
+    /// Renamed to the path at the end.
+    Temporary(BufWriter<NamedTempFile>, PathBuf),
+    /// A device or a pipe: nothing to replace.
+    Direct(BufWriter<File>),
+    Stdout(BufWriter<io::Stdout>),
+}
+
+impl AtomicFile {
+    /// Begins a file that will be at `path`; `-` is the standard output.
+    ///
+    /// # Errors
+    /// If the folder cannot be written.
+    pub fn create(path: &Path) -> io::Result<Self> {
+        if path == Path::new("-") {
+            return Ok(Self {
+                output: Output::Stdout(BufWriter::new(io::stdout())),
+            });
+        }
+        // A link stays a link.
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let existing = fs::metadata(&path).ok();
+        if let Some(existing) = &existing
+            && !existing.is_file()
+        {
+            if existing.is_dir() {
+                return Err(io::Error::new(
+                    io::ErrorKind::IsADirectory,
+                    "is a directory",
+                ));
+            }
+            let file = File::options().write(true).open(&path)?;
+            return Ok(Self {
+                output: Output::Direct(BufWriter::new(file)),
+            });
+        }
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".pullback-").suffix(".part");
+        let permissions = existing.map(|existing| existing.permissions());
+        if permissions.as_ref().is_some_and(fs::Permissions::readonly) {
+            return Err(io::ErrorKind::PermissionDenied.into());
+        }
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // As for any new file; the user's mask applies.
+            builder.permissions(permissions.unwrap_or(fs::Permissions::from_mode(0o666)));
+        }
+        let file = builder.tempfile_in(folder)?;
+        Ok(Self {
+            output: Output::Temporary(BufWriter::with_capacity(1 << 18, file), path),
+        })
+    }
+
+    /// Gives the complete file its name.
+    ///
+    /// # Errors
+    /// If the rest cannot be written or the name cannot be given; nothing is left behind then.
+    pub fn commit(self) -> io::Result<()> {
+        match self.output {
+            Output::Temporary(buffer, path) => {
+                let file = buffer
+                    .into_inner()
+                    .map_err(io::IntoInnerError::into_error)?;
+                file.persist(path).map_err(|error| error.error)?;
+                Ok(())
+            }
+            Output::Direct(mut buffer) => buffer.flush(),
+            Output::Stdout(mut buffer) => buffer.flush(),
+        }
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match &mut self.output {
+            Output::Temporary(buffer, _) => buffer.write(bytes),
+            Output::Direct(buffer) => buffer.write(bytes),
+            Output::Stdout(buffer) => buffer.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match &mut self.output {
+            Output::Temporary(buffer, _) => buffer.flush(),
+            Output::Direct(buffer) => buffer.flush(),
+            Output::Stdout(buffer) => buffer.flush(),
+        }
+    }
+}
+
+/// Writes a PNG in 8-bit sRGB at `path` with the rows that `draw` gives; without all of them there will be no file.
+///
+/// # Errors
+/// Those of `draw`, and [`Error::Io`].
+pub fn write_png(
+    path: &Path,
+    size: Size,
+    metadata: &Metadata,
+    draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let mut file = AtomicFile::create(path)?;
+    encode_png(&mut file, size, metadata, draw)?;
+    file.commit()?;
+    Ok(())
+}
+
+/// The same into any output.
+///
+/// # Errors
+/// Those of `draw`, and [`Error::Io`].
+pub fn encode_png(
+    output: &mut dyn Write,
+    size: Size,
+    metadata: &Metadata,
+    draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let mut output = Watched {
+        output,
+        failure: None,
+    };
+    let drawn = encode(&mut output, size, metadata, draw);
+    match (drawn, output.failure) {
+        // The encoder passes on the text of a failure alone.
+        (Err(Error::Io(_)), Some(failure)) => Err(Error::Io(failure)),
+        (drawn, _) => drawn,
+    }
+}
+
+fn encode(
+    output: &mut Watched,
+    size: Size,
+    metadata: &Metadata,
+    draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let mut encoder = png::Encoder::new(output, size.width, size.height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    if u64::from(size.width) * u64::from(size.height) > QUICK_FROM {
+        encoder.set_compression(png::Compression::Fast);
+    }
+    for (keyword, text) in &metadata.0 {
+        // PNG has no place for NUL in texts.
+        let (keyword, text) = ((*keyword).to_owned(), text.replace('\0', "\u{fffd}"));
+        if text.is_ascii() {
+            encoder.add_text_chunk(keyword, text)
+        } else {
+            encoder.add_itxt_chunk(keyword, text)
+        }
+        .map_err(io_error)?;
+    }
+    let mut writer = encoder.write_header().map_err(io_error)?;
+    {
+        let mut sink = PngRows {
+            stream: writer.stream_writer_with_size(CHUNK).map_err(io_error)?,
+            rgb: Vec::new(),
+        };
+        draw(&mut sink)?;
+        sink.stream.finish().map_err(io_error)?;
+    }
+    writer.finish().map_err(io_error)?;
+    Ok(())
+}
+
+/// An output that remembers its first failure, and writes no more after it.
+struct Watched<'a> {
+    output: &'a mut dyn Write,
+    failure: Option<io::Error>,
+}
+
+impl Watched<'_> {
+    fn attempt<T>(
+        &mut self,
+        action: impl FnOnce(&mut dyn Write) -> io::Result<T>,
+    ) -> io::Result<T> {
+        if let Some(failure) = &self.failure {
+            return Err(failure.kind().into());
+        }
+        action(self.output).map_err(|error| {
+            let kind = error.kind();
+            if kind != io::ErrorKind::Interrupted {
+                self.failure = Some(error);
+            }
+            kind.into()
+        })
+    }
+}
+
+impl Write for Watched<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.attempt(|output| output.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.attempt(|output| output.flush())
+    }
+}
+
+fn io_error(error: png::EncodingError) -> Error {
+    Error::Io(match error {
+        png::EncodingError::IoError(error) => error,
+        other => io::Error::other(other),
+    })
+}
+
+/// Rows on their way into the compressor. Pictures are opaque: alpha is left out.
+struct PngRows<'a, W: Write> {
+    stream: png::StreamWriter<'a, W>,
+    rgb: Vec<u8>,
+}
+
+impl<W: Write> RowSink for PngRows<'_, W> {
+    fn rows(&mut self, rgba: &[u8]) -> io::Result<()> {
+        self.rgb.clear();
+        self.rgb.extend(
+            rgba.as_chunks::<4>()
+                .0
+                .iter()
+                .flat_map(|&[r, g, b, _]| [r, g, b]),
+        );
+        self.stream.write_all(&self.rgb)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: Size = Size {
+        width: 3,
+        height: 2,
+    };
+
+    fn draw(sink: &mut dyn RowSink) -> Result<(), Error> {
+        let row: Vec<u8> = (0..12).collect();
+        sink.rows(&row)?;
+        sink.rows(&row)?;
+        Ok(())
+    }
+
+    fn files(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn pixels_and_texts_come_back() {
+        let metadata = Metadata(vec![
+            ("Software", "pullback".into()),
+            ("Formula", "√x\0 + π".into()),
+        ]);
+        let mut bytes = Vec::new();
+        encode_png(&mut bytes, SIZE, &metadata, draw).unwrap();
+        let mut reader = png::Decoder::new(io::Cursor::new(bytes))
+            .read_info()
+            .unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        let row = [0, 1, 2, 4, 5, 6, 8, 9, 10];
+        assert_eq!(pixels, [row, row].concat());
+        let info = reader.info();
+        assert_eq!(info.srgb, Some(png::SrgbRenderingIntent::Perceptual));
+        assert_eq!(info.uncompressed_latin1_text[0].text, "pullback");
+        assert_eq!(info.utf8_text[0].get_text().unwrap(), "√x\u{fffd} + π");
+    }
+
+    #[test]
+    fn a_file_appears_only_when_complete() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let failed = write_png(&path, SIZE, &Metadata::default(), |sink| {
+            sink.rows(&[0; 12])?;
+            Err(Error::Invalid {
+                reason: "a test".into(),
+            })
+        });
+        assert!(matches!(failed, Err(Error::Invalid { .. })));
+        assert!(files(folder.path()).is_empty());
+        let short = write_png(&path, SIZE, &Metadata::default(), |sink| {
+            Ok(sink.rows(&[0; 12])?)
+        });
+        assert!(matches!(short, Err(Error::Io(_))));
+        assert!(files(folder.path()).is_empty());
+        write_png(&path, SIZE, &Metadata::default(), draw).unwrap();
+        assert_eq!(files(folder.path()), ["a.png"]);
+    }
+
+    #[test]
+    fn the_kind_of_a_failure_is_kept() {
+        struct Closed;
+        impl Write for Closed {
+            fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+                Err(io::ErrorKind::BrokenPipe.into())
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        let failed = encode_png(&mut Closed, SIZE, &Metadata::default(), draw);
+        assert!(
+            matches!(failed, Err(Error::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe)
+        );
+    }
+
+    #[test]
+    fn a_folder_is_no_file() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(write_png(folder.path(), SIZE, &Metadata::default(), draw).is_err());
+        let missing = folder.path().join("none/a.png");
+        assert!(write_png(&missing, SIZE, &Metadata::default(), draw).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_and_permissions_are_kept() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let (target, link) = (folder.path().join("a.png"), folder.path().join("b.png"));
+        fs::write(&target, "old").unwrap();
+        fs::set_permissions(&target, fs::Permissions::from_mode(0o640)).unwrap();
+        std::os::unix::fs::symlink(&target, &link).unwrap();
+        write_png(&link, SIZE, &Metadata::default(), draw).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert!(fs::read(&target).unwrap().starts_with(b"\x89PNG"));
+        assert_eq!(
+            fs::metadata(&target).unwrap().permissions().mode() & 0o777,
+            0o640
+        );
+        write_png(Path::new("/dev/null"), SIZE, &Metadata::default(), draw).unwrap();
+        assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    }
+}

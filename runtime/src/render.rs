@@ -1,0 +1,523 @@
+//! Pictures: a scene's shader module run over every pixel, tile by tile.
+
+mod compute;
+mod fragment;
+
+use std::io;
+use std::time::Instant;
+
+use naga::Module;
+use pullback_compiler::SceneModule;
+
+use crate::tiles::{self, Budget, Pending, Tile};
+use crate::uniforms::{self, MAX_PARAMS, ViewUniform};
+use crate::{Error, Gpu, buffers};
+
+use compute::ComputeStage;
+use fragment::FragmentStage;
+
+/// Largest width and height of a picture.
+pub const MAX_SIDE: u32 = 16384;
+/// Most supersamples per axis.
+pub const MAX_SAMPLES: u32 = 16;
+
+/// Width and height in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+/// The part of the world that a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// World coordinates of the centre.
+    pub center: [f64; 2],
+    /// World units from the bottom to the top edge.
+    pub height: f64,
+}
+
+/// Which shader stage computes the pixels. The picture is the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pipeline {
+    /// A compute shader: fast on data-centre GPUs too.
+    #[default]
+    Compute,
+    /// A fragment shader, as in a web page or a game.
+    Fragment,
+}
+
+/// One picture to be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame<'a> {
+    /// What is seen.
+    pub view: View,
+    /// Values of the program's parameters in order.
+    pub params: &'a [f64],
+    /// Bytes of the scene's settings, as many as [`SceneModule::settings`] has.
+    pub settings: &'a [u8],
+    /// The whole image.
+    pub size: Size,
+    /// Supersamples per axis, from 1 to [`MAX_SAMPLES`].
+    pub samples: u32,
+    /// The animation clock in seconds.
+    pub time: f64,
+    /// The stage that does it.
+    pub pipeline: Pipeline,
+}
+
+/// Takes the rows of a picture from top to bottom.
+pub trait RowSink {
+    /// Takes whole rows of 8-bit sRGB with alpha.
+    ///
+    /// # Errors
+    /// Whatever writing them meets; the picture is then given up.
+    fn rows(&mut self, rgba: &[u8]) -> io::Result<()>;
+
+    /// Hears that `done` of `total` pixels are computed.
+    fn progress(&mut self, done: u64, total: u64) {
+        let _ = (done, total);
+    }
+}
+
+/// Collects the whole picture in memory.
+impl RowSink for Vec<u8> {
+    fn rows(&mut self, rgba: &[u8]) -> io::Result<()> {
+        self.extend_from_slice(rgba);
+        Ok(())
+    }
+}
+
+/// A scene's shader on a device with its pipelines and buffers: change anything in the [`Frame`] and render again
+/// without any compilation. The pipelines are made when first used.
+#[derive(Debug)]
+pub struct Renderer {
+    gpu: Gpu,
+    shader: wgpu::ShaderModule,
+    uniforms: Uniforms,
+    compute: Option<ComputeStage>,
+    fragment: Option<FragmentStage>,
+}
+
+/// The uniform buffers at bindings 0, 1 and 2.
+#[derive(Debug)]
+struct Uniforms {
+    view: wgpu::Buffer,
+    params: wgpu::Buffer,
+    settings: wgpu::Buffer,
+}
+
+impl Renderer {
+    /// Loads the scene's module, that the compiler has validated, onto the device.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the device does not take it.
+    pub fn new(gpu: &Gpu, scene: &SceneModule) -> Result<Self, Error> {
+        Ok(Self {
+            gpu: gpu.clone(),
+            shader: load(gpu, &scene.module)?,
+            uniforms: Uniforms {
+                view: buffers::uniform(gpu, "view", size_of::<ViewUniform>())?,
+                params: buffers::uniform(gpu, "params", size_of::<[f32; MAX_PARAMS]>())?,
+                settings: buffers::uniform(gpu, "settings", scene.settings.len().max(16))?,
+            },
+            compute: None,
+            fragment: None,
+        })
+    }
+
+    /// The device.
+    #[must_use]
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Draws the picture and hands its rows to `sink`.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a frame outside of the limits, [`Error::Io`] from the sink, and the device's errors.
+    pub fn render(&mut self, frame: &Frame, sink: &mut dyn RowSink) -> Result<(), Error> {
+        self.check(frame)?;
+        let stage = self.stage(frame.pipeline)?;
+        let budget = Budget::new(frame.samples, stage.max_pixels(), stage.max_side());
+        self.render_within(frame, budget, sink)
+    }
+
+    fn render_within(
+        &mut self,
+        frame: &Frame,
+        mut budget: Budget,
+        sink: &mut dyn RowSink,
+    ) -> Result<(), Error> {
+        self.upload(frame)?;
+        let Size { width, height } = frame.size;
+        let total = u64::from(width) * u64::from(height);
+        let first = tiles::probe(width, height, frame.samples);
+        // Twice: the first run of a pipeline may still compile.
+        for _ in 0..2 {
+            let start = Instant::now();
+            self.tile(frame, first, |_, _| ())?;
+            budget.learn(first, start.elapsed());
+        }
+        let mut band = Vec::new();
+        let mut done = 0;
+        let mut top = 0;
+        while top < height {
+            let rows = tiles::band_height(width, height - top, &budget);
+            band.resize(width as usize * rows as usize * 4, 0);
+            let mut pending = Pending::new(Tile {
+                x: 0,
+                y: top,
+                width,
+                height: rows,
+            });
+            while let Some(tile) = pending.next(&budget) {
+                let start = Instant::now();
+                self.tile(frame, tile, |bytes, stride| {
+                    place(&mut band, width, top, tile, bytes, stride);
+                })?;
+                budget.learn(tile, start.elapsed());
+                done += tile.pixels();
+                sink.progress(done, total);
+            }
+            sink.rows(&band)?;
+            top += rows;
+        }
+        Ok(())
+    }
+
+    fn check(&self, frame: &Frame) -> Result<(), Error> {
+        let invalid = |reason: String| Err(Error::Invalid { reason });
+        let Size { width, height } = frame.size;
+        if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
+            return invalid(format!(
+                "a picture of {width}x{height} pixels: each side must be 1 to {MAX_SIDE}"
+            ));
+        }
+        if frame.samples == 0 || frame.samples > MAX_SAMPLES {
+            return invalid(format!(
+                "{} samples per axis: must be 1 to {MAX_SAMPLES}",
+                frame.samples
+            ));
+        }
+        if frame.params.len() > MAX_PARAMS {
+            return invalid(format!(
+                "{} parameters: at most {MAX_PARAMS}",
+                frame.params.len()
+            ));
+        }
+        if frame.settings.len() as u64 > self.uniforms.settings.size()
+            || !frame.settings.len().is_multiple_of(4)
+        {
+            return invalid(format!(
+                "{} bytes of settings for a scene that has {}",
+                frame.settings.len(),
+                self.uniforms.settings.size()
+            ));
+        }
+        let pixel = (frame.view.height / f64::from(height)) as f32;
+        if !(pixel.is_normal() && pixel > 0.0) {
+            return invalid(format!(
+                "a view of height {}: must be a positive number within single precision",
+                frame.view.height
+            ));
+        }
+        if !frame.view.center.iter().all(|c| (*c as f32).is_finite()) {
+            return invalid("the centre of the view must be finite in single precision".into());
+        }
+        Ok(())
+    }
+
+    /// Writes what is the same for all tiles.
+    fn upload(&self, frame: &Frame) -> Result<(), Error> {
+        self.gpu.guarded("upload", || {
+            let queue = self.gpu.queue();
+            let params = uniforms::params(frame.params);
+            queue.write_buffer(&self.uniforms.params, 0, bytemuck::bytes_of(&params));
+            queue.write_buffer(&self.uniforms.settings, 0, frame.settings);
+        })
+    }
+
+    /// The stage, made if this is its first use.
+    fn stage(&mut self, pipeline: Pipeline) -> Result<&mut dyn Stage, Error> {
+        let (gpu, shader, uniforms) = (&self.gpu, &self.shader, &self.uniforms);
+        Ok(match pipeline {
+            Pipeline::Compute => match &mut self.compute {
+                Some(stage) => stage,
+                empty => empty.insert(ComputeStage::new(gpu, shader, uniforms)?),
+            },
+            Pipeline::Fragment => match &mut self.fragment {
+                Some(stage) => stage,
+                empty => empty.insert(FragmentStage::new(gpu, shader, uniforms)?),
+            },
+        })
+    }
+
+    /// Computes one tile and shows its bytes, with the number of bytes from row to row, to `look`.
+    fn tile(
+        &mut self,
+        frame: &Frame,
+        tile: Tile,
+        look: impl FnOnce(&[u8], usize),
+    ) -> Result<(), Error> {
+        let view = view_uniform(frame, tile);
+        let gpu = self.gpu.clone();
+        gpu.guarded("upload", || {
+            gpu.queue()
+                .write_buffer(&self.uniforms.view, 0, bytemuck::bytes_of(&view));
+        })?;
+        // The uniforms are cheap handles; the stage borrows the renderer.
+        let uniforms = self.uniforms.share();
+        let Recorded {
+            encoder,
+            readable,
+            bytes,
+            stride,
+        } = self.stage(frame.pipeline)?.record(&gpu, &uniforms, tile)?;
+        buffers::submit_and_read(&gpu, "rendering", encoder, &readable, bytes, |pixels| {
+            look(pixels, stride);
+        })
+    }
+}
+
+impl Uniforms {
+    fn share(&self) -> Self {
+        Self {
+            view: self.view.clone(),
+            params: self.params.clone(),
+            settings: self.settings.clone(),
+        }
+    }
+
+    /// Bindings 0, 1 and 2.
+    fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 3] {
+        [&self.view, &self.params, &self.settings].map({
+            let mut binding = 0;
+            move |buffer| {
+                let entry = wgpu::BindGroupEntry {
+                    binding,
+                    resource: buffer.as_entire_binding(),
+                };
+                binding += 1;
+                entry
+            }
+        })
+    }
+}
+
+/// A way of computing tiles.
+trait Stage {
+    /// Most pixels in a tile.
+    fn max_pixels(&self) -> u64;
+    /// Longest side of a tile.
+    fn max_side(&self) -> u32;
+    /// Records the work for a tile whose uniforms are in place.
+    fn record(&mut self, gpu: &Gpu, uniforms: &Uniforms, tile: Tile) -> Result<Recorded, Error>;
+}
+
+/// A tile's commands, and where its pixels will be.
+struct Recorded {
+    encoder: wgpu::CommandEncoder,
+    readable: wgpu::Buffer,
+    /// How much of `readable` is used.
+    bytes: u64,
+    /// From row to row.
+    stride: usize,
+}
+
+/// Hands a validated module to the device.
+pub(crate) fn load(gpu: &Gpu, module: &Module) -> Result<wgpu::ShaderModule, Error> {
+    gpu.guarded("loading the shader", || {
+        gpu.device()
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("formula"),
+                source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module.clone())),
+            })
+    })
+}
+
+/// Layout of bindings 0, 1 and 2.
+fn uniform_layout(visibility: wgpu::ShaderStages) -> [wgpu::BindGroupLayoutEntry; 3] {
+    [0, 1, 2].map(|binding| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    })
+}
+
+fn view_uniform(frame: &Frame, tile: Tile) -> ViewUniform {
+    ViewUniform {
+        center: frame.view.center.map(|c| c as f32),
+        size: [frame.size.width as f32, frame.size.height as f32],
+        tile: [tile.x as f32, tile.y as f32],
+        pixel: (frame.view.height / f64::from(frame.size.height)) as f32,
+        time: frame.time as f32,
+        samples: frame.samples,
+        zero: 0,
+        tile_size: [tile.width, tile.height],
+    }
+}
+
+/// Copies a tile's rows, which are `stride` bytes apart, into the band that begins at row `top`.
+fn place(band: &mut [u8], width: u32, top: u32, tile: Tile, bytes: &[u8], stride: usize) {
+    let row = tile.width as usize * 4;
+    let left = tile.x as usize * 4;
+    let lines = band
+        .chunks_exact_mut(width as usize * 4)
+        .skip((tile.y - top) as usize);
+    for (line, pixels) in lines.zip(bytes.chunks(stride)).take(tile.height as usize) {
+        line[left..left + row].copy_from_slice(&pixels[..row]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::AdapterChoice;
+
+    const SIZE: Size = Size {
+        width: 213,
+        height: 117,
+    };
+
+    fn scene(formula: &str) -> SceneModule {
+        let program = pullback_compiler::compile(formula).program.unwrap();
+        match program.scene_module(0) {
+            Ok(scene) => scene,
+            Err(diagnostics) => panic!("{diagnostics:?}"),
+        }
+    }
+
+    fn frame<'a>(scene: &'a SceneModule, params: &'a [f64], pipeline: Pipeline) -> Frame<'a> {
+        Frame {
+            view: View {
+                center: scene.view.center,
+                height: 2.0 * scene.view.half_height,
+            },
+            params,
+            settings: &scene.settings,
+            size: SIZE,
+            samples: 2,
+            time: 0.0,
+            pipeline,
+        }
+    }
+
+    /// A software adapter, if there is one: the same results everywhere.
+    fn software() -> Option<Gpu> {
+        Gpu::open(&AdapterChoice::Software).ok()
+    }
+
+    #[test]
+    fn both_pipelines_and_any_tiles_give_one_picture() {
+        let Some(gpu) = software() else { return };
+        let scene = scene("x*x + y*y");
+        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
+        let mut pictures = Vec::new();
+        for pipeline in [Pipeline::Compute, Pipeline::Fragment] {
+            for (max_pixels, max_side) in [(u64::MAX, 8192), (1000, 8192), (u64::MAX, 64), (1, 8)] {
+                let budget = Budget::new(2, max_pixels, max_side);
+                let mut rows = Vec::new();
+                renderer
+                    .render_within(&frame(&scene, &[], pipeline), budget, &mut rows)
+                    .unwrap();
+                assert_eq!(rows.len(), 213 * 117 * 4);
+                pictures.push(rows);
+            }
+        }
+        for picture in &pictures[1..] {
+            assert!(*picture == pictures[0]);
+        }
+        let distinct: std::collections::HashSet<_> =
+            pictures[0].as_chunks::<4>().0.iter().collect();
+        assert!(distinct.len() > 20, "{} colours", distinct.len());
+    }
+
+    #[test]
+    fn a_frame_outside_of_the_limits_is_refused() {
+        let Some(gpu) = software() else { return };
+        let scene = scene("x + y");
+        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
+        let good = frame(&scene, &[], Pipeline::Compute);
+        let many = [0.0; 65];
+        let size = |width, height| Size { width, height };
+        let bad = [
+            Frame {
+                size: size(0, 5),
+                ..good.clone()
+            },
+            Frame {
+                size: size(5, MAX_SIDE + 1),
+                ..good.clone()
+            },
+            Frame {
+                samples: 0,
+                ..good.clone()
+            },
+            Frame {
+                samples: MAX_SAMPLES + 1,
+                ..good.clone()
+            },
+            Frame {
+                params: &many,
+                ..good.clone()
+            },
+            Frame {
+                settings: &[0; 4096],
+                ..good.clone()
+            },
+            Frame {
+                settings: &[0; 3],
+                ..good.clone()
+            },
+            Frame {
+                view: View {
+                    center: [0.0; 2],
+                    height: 0.0,
+                },
+                ..good.clone()
+            },
+            Frame {
+                view: View {
+                    center: [0.0; 2],
+                    height: f64::NAN,
+                },
+                ..good.clone()
+            },
+            Frame {
+                view: View {
+                    center: [1e300, 0.0],
+                    height: 1.0,
+                },
+                ..good.clone()
+            },
+        ];
+        for frame in bad {
+            let refused = renderer.render(&frame, &mut Vec::new());
+            assert!(matches!(refused, Err(Error::Invalid { .. })), "{refused:?}");
+        }
+        assert!(renderer.render(&good, &mut Vec::new()).is_ok());
+    }
+
+    #[test]
+    fn a_failing_sink_ends_the_picture() {
+        struct Full;
+        impl RowSink for Full {
+            fn rows(&mut self, _: &[u8]) -> io::Result<()> {
+                Err(io::ErrorKind::StorageFull.into())
+            }
+        }
+        let Some(gpu) = software() else { return };
+        let scene = scene("x + y");
+        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
+        let failed = renderer.render(&frame(&scene, &[], Pipeline::Compute), &mut Full);
+        assert!(matches!(failed, Err(Error::Io(_))), "{failed:?}");
+    }
+}

@@ -1,0 +1,137 @@
+//! Tiles by the compute entry point, into a storage buffer.
+
+use super::{Recorded, Stage, Uniforms, uniform_layout};
+use crate::buffers::Growing;
+use crate::tiles::Tile;
+use crate::{Error, Gpu};
+
+/// Side of a workgroup of `compute_main`.
+const WORKGROUP: u32 = 8;
+
+/// Pipeline and buffers of the compute path.
+#[derive(Debug)]
+pub(super) struct ComputeStage {
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+    image: Growing,
+    readable: Growing,
+    bindings: Option<wgpu::BindGroup>,
+    max_pixels: u64,
+    max_side: u32,
+}
+
+impl ComputeStage {
+    pub(super) fn new(
+        gpu: &Gpu,
+        shader: &wgpu::ShaderModule,
+        _uniforms: &Uniforms,
+    ) -> Result<Self, Error> {
+        let device = gpu.device();
+        let stages = wgpu::ShaderStages::COMPUTE;
+        let [view, params, settings] = uniform_layout(stages);
+        let image = wgpu::BindGroupLayoutEntry {
+            binding: 3,
+            visibility: stages,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: false },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        let limits = device.limits();
+        gpu.guarded("compiling the compute pipeline", || {
+            let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some("compute"),
+                entries: &[view, params, settings, image],
+            });
+            let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("compute"),
+                bind_group_layouts: &[Some(&layout)],
+                immediate_size: 0,
+            });
+            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some("compute"),
+                layout: Some(&pipeline_layout),
+                module: shader,
+                entry_point: Some("compute_main"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    zero_initialize_workgroup_memory: false,
+                    ..Default::default()
+                },
+                cache: None,
+            });
+            Self {
+                layout,
+                pipeline,
+                image: Growing::results(),
+                readable: Growing::readable(),
+                bindings: None,
+                max_pixels: limits
+                    .max_storage_buffer_binding_size
+                    .min(limits.max_buffer_size)
+                    / 4,
+                max_side: limits
+                    .max_compute_workgroups_per_dimension
+                    .saturating_mul(WORKGROUP),
+            }
+        })
+    }
+}
+
+impl Stage for ComputeStage {
+    fn max_pixels(&self) -> u64 {
+        self.max_pixels
+    }
+
+    fn max_side(&self) -> u32 {
+        self.max_side
+    }
+
+    fn record(&mut self, gpu: &Gpu, uniforms: &Uniforms, tile: Tile) -> Result<Recorded, Error> {
+        let bytes = tile.pixels() * 4;
+        let (image, new) = self.image.at_least(gpu, bytes)?;
+        let (readable, _) = self.readable.at_least(gpu, bytes)?;
+        if new {
+            self.bindings = None;
+        }
+        let device = gpu.device();
+        let encoder = gpu.guarded("recording", || {
+            let bindings = self.bindings.get_or_insert_with(|| {
+                let [view, params, settings] = uniforms.entries();
+                device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("compute"),
+                    layout: &self.layout,
+                    entries: &[
+                        view,
+                        params,
+                        settings,
+                        wgpu::BindGroupEntry {
+                            binding: 3,
+                            resource: image.as_entire_binding(),
+                        },
+                    ],
+                })
+            });
+            let mut encoder = device.create_command_encoder(&Default::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                pass.set_pipeline(&self.pipeline);
+                pass.set_bind_group(0, &*bindings, &[]);
+                pass.dispatch_workgroups(
+                    tile.width.div_ceil(WORKGROUP),
+                    tile.height.div_ceil(WORKGROUP),
+                    1,
+                );
+            }
+            encoder.copy_buffer_to_buffer(&image, 0, &readable, 0, bytes);
+            encoder
+        })?;
+        Ok(Recorded {
+            encoder,
+            readable,
+            bytes,
+            stride: tile.width as usize * 4,
+        })
+    }
+}

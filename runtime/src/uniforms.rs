@@ -1,0 +1,81 @@
+//! The bytes of the uniform buffers that every shader module shares.
+
+/// Number of user parameters that fit the uniform `params: array<vec4f, 16>`.
+pub(crate) const MAX_PARAMS: usize = 64;
+
+/// `struct View` of the scene shaders.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct ViewUniform {
+    /// World coordinates of the centre of the whole image.
+    pub center: [f32; 2],
+    /// The whole image in pixels.
+    pub size: [f32; 2],
+    /// Pixel of the whole image at the tile's top-left corner.
+    pub tile: [f32; 2],
+    /// World units per pixel.
+    pub pixel: f32,
+    /// Seconds.
+    pub time: f32,
+    /// Supersamples per axis.
+    pub samples: u32,
+    /// Zero, which the shader compiler must not know.
+    pub zero: u32,
+    /// This tile in pixels.
+    pub tile_size: [u32; 2],
+}
+
+/// `struct Batch` of the evaluation shaders.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct BatchUniform {
+    /// Rows in this batch.
+    pub count: u32,
+    /// Zero, which the shader compiler must not know.
+    pub zero: u32,
+    /// Seconds.
+    pub time: f32,
+    /// World units per pixel.
+    pub pixel: f32,
+}
+
+/// The parameters in the order of the program, zero beyond them.
+pub(crate) fn params(values: &[f64]) -> [f32; MAX_PARAMS] {
+    let mut all = [0.0; MAX_PARAMS];
+    for (slot, &value) in all.iter_mut().zip(values) {
+        *slot = value as f32;
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layouts_agree_with_wgsl() {
+        let module = naga::front::wgsl::parse_str(
+            "struct View { center: vec2f, size: vec2f, tile: vec2f, pixel: f32, time: f32,
+                           samples: u32, zero: u32, tile_size: vec2u }
+             struct Batch { count: u32, zero: u32, time: f32, pixel: f32 }",
+        )
+        .unwrap();
+        let size = |name: &str| {
+            let (_, ty) = module
+                .types
+                .iter()
+                .find(|(_, ty)| ty.name.as_deref() == Some(name))
+                .unwrap();
+            ty.inner.size(module.to_ctx()) as usize
+        };
+        assert_eq!(size("View"), size_of::<ViewUniform>());
+        assert_eq!(size("Batch"), size_of::<BatchUniform>());
+    }
+
+    #[test]
+    fn params_are_padded() {
+        let all = params(&[1.5, -2.0]);
+        assert_eq!(all[..3], [1.5, -2.0, 0.0]);
+        assert_eq!(params(&[1.0; 100])[63], 1.0);
+    }
+}
