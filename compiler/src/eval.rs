@@ -1,7 +1,7 @@
 //! The reference evaluator: the IR in `f64`, operation by operation as the operator table defines them.
 
 use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
-use crate::reference::complex::{Complex, complex};
+use crate::reference::complex::complex;
 use crate::table::{self, Number};
 
 /// What the leaves of a graph are worth.

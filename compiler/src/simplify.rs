@@ -5,7 +5,7 @@
 //! NaN) is not here.
 
 use crate::ir::{Graph, Id, Op, Prim, Ty};
-use crate::reference::complex::{Complex, complex};
+use crate::reference::complex::complex;
 use crate::table::{self, Number};
 
 impl Graph {

@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 use super::symbols::Symbols;
 use super::{Value, library, named_constant};
-use crate::ir::{Graph, Id, Op, Prim, Ty};
+use crate::ir::{Graph, Id, Op, Ty};
 use crate::types::Type;
 
 /// Greatest depth of nested expressions, those of called functions included.
@@ -111,9 +111,11 @@ impl<'a> Builder<'a> {
             Expr::Member { base, field } => self.swizzle(*base, field),
             Expr::Vector(items) => self.vector(items),
             Expr::If { cond, then, otherwise } => {
-                self.choice(&[(*cond, *then)], Some(*otherwise), span)
+                self.choice(std::iter::once((*cond, *then)), Some(*otherwise), span)
             }
-            Expr::Piecewise { arms, otherwise } => self.choice(arms, *otherwise, span),
+            Expr::Piecewise { arms, otherwise } => {
+                self.choice(arms.iter().copied(), *otherwise, span)
+            }
             Expr::Where { body, locals } => self.locals(*body, locals),
         }
     }

@@ -231,13 +231,13 @@ impl<'a> Builder<'a> {
     /// The first value whose condition holds; NaN where none does and there is no other.
     pub(super) fn choice(
         &mut self,
-        arms: &'a [(ExprId, ExprId)],
+        arms: impl Iterator<Item = (ExprId, ExprId)>,
         otherwise: Option<ExprId>,
         span: Span,
     ) -> Value {
-        let mut built = Vec::with_capacity(arms.len());
+        let mut built = Vec::new();
         let mut failed = false;
-        for &(cond, value) in arms {
+        for (cond, value) in arms {
             let condition = match self.expr(cond) {
                 Value::Scalar(id) if self.graph.ty(id) == Ty::Bool => Some(id),
                 other => {

@@ -21,7 +21,8 @@ pub fn reverse(
     let active = active(g, &live, leaves);
     let mut adjoints: Vec<Option<Id>> = vec![None; live.len()];
     adjoints[root.index()] = Some(g.real(1.0));
-    for id in g.ids().take(live.len()).rev() {
+    let ids: Vec<Id> = g.ids().take(live.len()).collect();
+    for id in ids.into_iter().rev() {
         if !active[id.index()] {
             continue;
         }

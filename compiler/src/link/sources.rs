@@ -6,13 +6,25 @@ use naga::Module;
 
 /// Functions on numbers, as one text.
 const MATH: &str = concat!(
+    include_str!("../../shaders/math/bits.wgsl"),
     include_str!("../../shaders/math/real.wgsl"),
-    "\n",
+    include_str!("../../shaders/math/trigonometry.wgsl"),
+    include_str!("../../shaders/math/power.wgsl"),
+    include_str!("../../shaders/math/gamma.wgsl"),
     include_str!("../../shaders/math/complex.wgsl"),
+    include_str!("../../shaders/math/complex_waves.wgsl"),
+    include_str!("../../shaders/math/complex_gamma.wgsl"),
 );
 
 /// Functions that scenes draw with, as one text.
-const SHARED: &str = concat!(include_str!("../../shaders/shared/colour.wgsl"), "\n",);
+const SHARED: &str = concat!(
+    include_str!("../../shaders/shared/number.wgsl"),
+    include_str!("../../shaders/shared/colour.wgsl"),
+    include_str!("../../shaders/shared/lines.wgsl"),
+    include_str!("../../shaders/shared/camera.wgsl"),
+    include_str!("../../shaders/shared/box.wgsl"),
+    include_str!("../../shaders/shared/lighting.wgsl"),
+);
 
 const ENTRY: &str = include_str!("../../shaders/shared/entry.wgsl");
 
