@@ -173,7 +173,7 @@ impl Parser<'_> {
                 .with_label("expected `name = value`")
                 .with_hint("write `… where a = value, b = value`"),
         );
-        if self.eat(TokenKind::Name) {
+        if self.eat(TokenKind::Name) && !matches!(self.kind(), TokenKind::End | TokenKind::Comma) {
             self.read_on();
         }
         None
@@ -295,6 +295,16 @@ impl Parser<'_> {
 
     #[cold]
     fn complain_conditional(&mut self, code: &'static str, word: &str, opening: Span) {
+        if let Some(place) = self.retract_missing_operator(opening) {
+            self.diagnostics.push(
+                Diagnostic::error(code, place, format!("missing `{word}`"))
+                    .with_label(format!("expected `{word}` between these"))
+                    .with_related(opening, "the conditional begins here")
+                    .with_hint("write `if c then a else b`"),
+            );
+            self.mark_complained();
+            return;
+        }
         let message = format!("missing `{word}` before {}", self.describe());
         self.complain(
             Diagnostic::error(code, self.span(), message)
