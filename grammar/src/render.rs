@@ -76,8 +76,8 @@ impl<'a> Lines<'a> {
 
     /// The nearest range that lies in the text and on characters.
     fn fit(&self, span: Span) -> Range<usize> {
-        let start = self.source.floor_char_boundary(span.start as usize);
-        let end = self.source.ceil_char_boundary(span.end as usize);
+        let start = floor(self.source, span.start as usize);
+        let end = ceil(self.source, span.end as usize);
         start..end.max(start)
     }
 }
@@ -153,7 +153,7 @@ fn cut(lines: &Lines<'_>, place: &Range<usize>) -> (String, Range<usize>) {
         .min(place.start + CUT)
         .min(line.end)
         .max(place.start);
-    let end = source.floor_char_boundary(end).max(place.start);
+    let end = floor(source, end).max(place.start);
     let before = source.get(line.start..place.start).unwrap_or("");
     let after = source.get(end..line.end).unwrap_or("");
     let from = before
@@ -178,4 +178,20 @@ fn cut(lines: &Lines<'_>, place: &Range<usize>) -> (String, Range<usize>) {
         text.push('…');
     }
     (text, start..stop)
+}
+
+/// The last boundary of characters at or before `at`.
+fn floor(text: &str, at: usize) -> usize {
+    let at = at.min(text.len());
+    (0..=at)
+        .rev()
+        .find(|&at| text.is_char_boundary(at))
+        .unwrap_or(0)
+}
+
+/// The first boundary of characters at or behind `at`.
+fn ceil(text: &str, at: usize) -> usize {
+    (at..text.len())
+        .find(|&at| text.is_char_boundary(at))
+        .unwrap_or(text.len())
 }

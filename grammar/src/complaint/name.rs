@@ -3,7 +3,7 @@
 use crate::Diagnostic;
 use crate::Span;
 use crate::ast::Name;
-use crate::cursor::{Node, Parser};
+use crate::cursor::Parser;
 use crate::token::TokenKind;
 
 impl Parser<'_> {
@@ -174,7 +174,7 @@ impl Parser<'_> {
                 .with_hint("write `… where a = value, b = value`"),
         );
         if self.eat(TokenKind::Name) && !matches!(self.kind(), TokenKind::End | TokenKind::Comma) {
-            self.read_on();
+            self.disjunction();
         }
         None
     }
@@ -312,10 +312,5 @@ impl Parser<'_> {
                 .with_related(opening, "the conditional begins here")
                 .with_hint("write `if c then a else b`"),
         );
-    }
-
-    /// Reads what follows only to find its problems.
-    pub(crate) fn read_on(&mut self) {
-        let _: Node = self.expr();
     }
 }

@@ -43,7 +43,7 @@ impl Parser<'_> {
                 self.bump();
             }
             if !self.at(TokenKind::End) {
-                self.read_on();
+                self.expr();
             }
         }
     }
