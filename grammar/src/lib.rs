@@ -14,9 +14,13 @@ mod cursor;
 mod layout;
 mod parse;
 mod parser;
+mod printer;
+mod render;
 mod scope;
 mod stray;
 
 pub use diagnostic::{Diagnostic, Severity};
 pub use parse::{Parsed, parse, parse_bytes};
+pub use printer::{print, print_expr};
+pub use render::render;
 pub use span::Span;
