@@ -19,7 +19,7 @@ use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
-use pullback_compiler::Precision;
+use pullback_compiler::lower::Precision;
 use pullback_runtime::AdapterChoice;
 
 pub(crate) use console::Console;

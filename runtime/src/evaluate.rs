@@ -248,7 +248,8 @@ impl GpuEvaluator {
 mod tests {
     use super::*;
     use crate::AdapterChoice;
-    use pullback_compiler::{Precision, What};
+    use pullback_compiler::What;
+    use pullback_compiler::lower::Precision;
 
     fn evaluator(formula: &str) -> Option<GpuEvaluator> {
         let gpu = Gpu::open(&AdapterChoice::Software).ok()?;

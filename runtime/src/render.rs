@@ -381,7 +381,7 @@ fn place(band: &mut [u8], width: u32, top: u32, tile: Tile, bytes: &[u8], stride
 mod tests {
     use super::*;
     use crate::AdapterChoice;
-    use pullback_compiler::Precision;
+    use pullback_compiler::lower::Precision;
 
     const SIZE: Size = Size {
         width: 213,

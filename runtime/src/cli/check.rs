@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use clap::Args;
-use pullback_compiler::Precision;
+use pullback_compiler::lower::Precision;
 
 use super::failure::Failure;
 use super::source::Source;

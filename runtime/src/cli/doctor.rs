@@ -3,7 +3,8 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
-use pullback_compiler::{Precision, What};
+use pullback_compiler::What;
+use pullback_compiler::lower::Precision;
 use pullback_runtime::device::{self, AdapterSummary};
 use pullback_runtime::evaluate::Surroundings;
 use pullback_runtime::{Error, Gpu, GpuEvaluator};
