@@ -7,6 +7,7 @@ pub mod device;
 pub mod error;
 pub mod evaluate;
 pub mod image_file;
+pub mod probe;
 pub mod render;
 pub mod rows;
 

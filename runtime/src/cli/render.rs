@@ -31,7 +31,7 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     center: Option<[f64; 2]>,
     /// Height of the view in world units
-    #[arg(long, value_name = "H", value_parser = positive)]
+    #[arg(long, value_name = "H", value_parser = positive, allow_hyphen_values = true)]
     height: Option<f64>,
     #[command(flatten)]
     settings: Settings,

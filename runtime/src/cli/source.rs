@@ -116,9 +116,12 @@ fn read(input: &OsStr) -> Result<(String, String, Vec<u8>), Failure> {
     ))
 }
 
-/// Whether an argument names a file: it exists, or says that it should.
+/// Whether an argument names a file: it exists, or says that it should. A folder counts if it is written like one,
+/// because `e` may be a folder here and is a formula.
 fn is_file(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending == "pull") || path.is_file()
+    path.extension().is_some_and(|ending| ending == "pull")
+        || path.is_file()
+        || (path.is_dir() && path.components().count() > 1)
 }
 
 /// No more than shows the compiler that it is too much.
