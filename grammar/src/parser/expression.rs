@@ -36,7 +36,9 @@ impl Parser<'_> {
     /// `conditional = "if" disjunction "then" disjunction "else" disjunction`
     pub(crate) fn conditional(&mut self) -> Node {
         let opening = self.bump();
+        let outer = std::mem::replace(&mut self.in_condition, true);
         let cond = self.disjunction();
+        self.in_condition = outer;
         self.expect_then(opening);
         let then = self.disjunction();
         let otherwise = if self.expect_else(opening) {
@@ -86,13 +88,14 @@ impl Parser<'_> {
 
     /// `arm = ( expr | "else" ) ":" expr`
     fn arm(&mut self) -> (Option<ExprId>, ExprId) {
+        let start = self.span();
         let cond = if self.eat(TokenKind::Else) {
             None
         } else {
             Some(self.expr().id)
         };
         if !self.eat(TokenKind::Colon) {
-            self.complain_missing_colon(cond.is_none());
+            self.complain_missing_colon(cond.is_none(), start);
             return (cond, self.missing_node().id);
         }
         (cond, self.expr().id)
