@@ -11,6 +11,7 @@ pub mod token;
 mod build;
 mod complaint;
 mod cursor;
+mod format;
 mod layout;
 mod parse;
 mod parser;
@@ -20,7 +21,8 @@ mod scope;
 mod stray;
 
 pub use diagnostic::{Diagnostic, Severity};
+pub use format::format;
 pub use parse::{Parsed, parse, parse_bytes};
-pub use printer::{print, print_expr};
+pub use printer::{print, print_expr, print_item};
 pub use render::render;
 pub use span::Span;

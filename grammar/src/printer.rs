@@ -40,23 +40,31 @@ enum Work<'a> {
 pub fn print(file: &File) -> String {
     let mut out = String::new();
     for item in &file.items {
-        let start = out.len();
-        match item {
-            Item::Function(item) => function(&mut out, &file.exprs, item),
-            Item::Constant(item) => {
-                out.push_str(&item.name.text);
-                out.push_str(" = ");
-                write(&mut out, &file.exprs, item.value, Level::Where);
-            }
-            Item::Param(item) => param(&mut out, &file.exprs, item),
-            Item::Show(item) => show(&mut out, &file.exprs, item),
-            Item::Formula(item) => write(&mut out, &file.exprs, item.body, Level::Where),
-        }
+        let line = print_item(&file.exprs, item);
         // A line that begins with `-` would go on with the line before.
-        if start > 0 && out.get(start..).is_some_and(|line| line.starts_with('-')) {
-            out.insert(start - 1, ';');
+        if line.starts_with('-') && out.pop().is_some() {
+            out.push_str(";\n");
         }
+        out.push_str(&line);
         out.push('\n');
+    }
+    out
+}
+
+/// The canonical text of one statement.
+#[must_use]
+pub fn print_item(exprs: &Exprs, item: &Item) -> String {
+    let mut out = String::new();
+    match item {
+        Item::Function(item) => function(&mut out, exprs, item),
+        Item::Constant(item) => {
+            out.push_str(&item.name.text);
+            out.push_str(" = ");
+            write(&mut out, exprs, item.value, Level::Where);
+        }
+        Item::Param(item) => param(&mut out, exprs, item),
+        Item::Show(item) => show(&mut out, exprs, item),
+        Item::Formula(item) => write(&mut out, exprs, item.body, Level::Where),
     }
     out
 }

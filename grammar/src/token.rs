@@ -303,6 +303,25 @@ pub fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
     (tokens, diagnostics)
 }
 
+/// The places of the comments of a text, in order.
+#[must_use]
+pub fn comments(text: &str) -> Vec<Span> {
+    let mut found = Vec::new();
+    let mut lexer = TokenKind::lexer(text);
+    while let Some(result) = lexer.next() {
+        match result {
+            Ok(TokenKind::LineComment) => found.push(span(lexer.span())),
+            Ok(TokenKind::BlockComment) => {
+                let rest = lexer.remainder();
+                lexer.bump(rest.find("*/").map_or(rest.len(), |end| end + 2));
+                found.push(span(lexer.span()));
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
 /// Whether `c` can stand inside a name.
 fn is_name_character(c: char) -> bool {
     matches!(c, 'A'..='Z' | 'a'..='z' | '0'..='9' | '_' | '₀'..='₉')

@@ -5,7 +5,8 @@ mod support;
 use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
-use pullback_grammar::{parse_bytes, print, render};
+use proptest::test_runner::RngSeed;
+use pullback_grammar::{format, parse_bytes, print, render};
 use support::{check_structure, is_function, read};
 
 const PIECES: &[&str] = &[
@@ -89,10 +90,16 @@ const PIECES: &[&str] = &[
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, rng_seed: RngSeed::Fixed(20), ..ProptestConfig::default() })]
 
     #[test]
-    fn any_tokens(pieces in prop::collection::vec(prop::sample::select(PIECES), 0..60), spaced in any::<bool>()) {
+    fn any_tokens(
+        pieces in prop_oneof![
+            prop::collection::vec(prop::sample::select(PIECES), 0..8),
+            prop::collection::vec(prop::sample::select(PIECES), 0..60),
+        ],
+        spaced in any::<bool>(),
+    ) {
         let text = pieces.join(if spaced { " " } else { "" });
         let parsed = read(&text);
         let _ = print(&parsed.file);
@@ -102,6 +109,10 @@ proptest! {
             let again = read(&printed);
             prop_assert_eq!(support::show_file(&parsed.file), support::show_file(&again.file), "{}\n{}", text, printed);
             prop_assert_eq!(print(&again.file), printed);
+            let formatted = format(&text, &is_function).unwrap_or_default();
+            prop_assert_eq!(support::show_file(&parsed.file), support::show_file(&read(&formatted).file), "{}\n{}", text, formatted);
+            let again = format(&formatted, &is_function);
+            prop_assert_eq!(again, Some(formatted), "{}", text);
         }
     }
 

@@ -5,7 +5,8 @@ mod support;
 use std::collections::HashSet;
 use std::fmt::Write as _;
 
-use pullback_grammar::{Diagnostic, Parsed, parse_bytes, print, render};
+use pullback_grammar::token::comments;
+use pullback_grammar::{Diagnostic, Parsed, format, parse_bytes, print, render};
 use support::{fixture, is_function, read, show_file};
 
 fn complaints(text: &str, parsed: &Parsed) -> String {
@@ -39,6 +40,22 @@ fn well_formed_texts() {
         let again = read(&printed);
         assert_eq!(show_file(&parsed.file), show_file(&again.file), "{printed}");
         assert_eq!(printed, print(&again.file));
+        let formatted = format(text, &is_function).expect("a text without errors");
+        assert_eq!(
+            format(&formatted, &is_function).as_ref(),
+            Some(&formatted),
+            "{text}"
+        );
+        assert_eq!(
+            show_file(&parsed.file),
+            show_file(&read(&formatted).file),
+            "{formatted}"
+        );
+        assert_eq!(
+            comments(text).len(),
+            comments(&formatted).len(),
+            "{formatted}"
+        );
         format!(
             "{}\n  is {}\n{}",
             show_file(&parsed.file),
@@ -157,4 +174,13 @@ fn many_problems_are_counted() {
         last.message,
         "100000 errors, of which the first 200 are listed"
     );
+}
+
+#[test]
+fn formatting_keeps_comments() {
+    let text = "// one\n\n\nparam   k=1   // two\n/* three */ f(x)=k*x+ /* four */ 1\n\n\n\n# five\na=1;// six\n-x // seven\n\n//eight\n";
+    let expected = "// one\n\nparam k = 1  // two\n/* three */\nf(x)=k*x+ /* four */ 1\n\n# five\na = 1;  // six\n-x  // seven\n\n//eight\n";
+    assert_eq!(format(text, &is_function).as_deref(), Some(expected));
+    assert_eq!(format(expected, &is_function).as_deref(), Some(expected));
+    assert_eq!(format("f(x", &is_function), None);
 }

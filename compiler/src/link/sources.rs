@@ -14,6 +14,7 @@ const MATH: &str = concat!(
     include_str!("../../shaders/math/complex.wgsl"),
     include_str!("../../shaders/math/complex_waves.wgsl"),
     include_str!("../../shaders/math/complex_gamma.wgsl"),
+    include_str!("../../shaders/math/pairs.wgsl"),
 );
 
 /// Functions that scenes draw with, as one text.
