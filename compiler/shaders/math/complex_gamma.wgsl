@@ -1,0 +1,114 @@
+// The gamma function and its logarithmic derivatives of a complex argument: Stirling's series from |z| ≥ 5 on (DLMF
+// 5.11.1-2), the recurrence to get there (DLMF 5.5.1-2), reflection on the left (DLMF 5.5.3-4).
+
+/// Whether the series may be used as they stand.
+fn is_gamma_far(z: vec2f) -> bool {
+    return magnitude(z.y) >= 5.0 || z.x >= 5.0;
+}
+
+/// sin πz, its real part reduced exactly.
+fn complex_sin_pi(z: vec2f) -> vec2f {
+    let wave = sincos_pi(z.x);
+    let h = scaled_sinhcosh(3.1415927 * z.y);
+    return vec2f(times_power_of_two(wave.x * h.cosh, h.exponent), times_power_of_two(wave.y * h.sinh, h.exponent));
+}
+
+/// π cot πz.
+fn complex_pi_cot_pi(z: vec2f) -> vec2f {
+    let f = z.x - floor(z.x + 0.5);
+    return 3.1415927 * complex_inverse(complex_tan(3.1415927 * vec2f(f, z.y)));
+}
+
+/// Γ for Re z ≥ -1/2 or |Im z| ≥ 5.
+fn gamma_of_right(z: vec2f) -> vec2f {
+    var product = vec2f(1.0, 0.0);
+    var top = z;
+    while !is_gamma_far(top) {
+        product = complex_mul(product, top);
+        top.x += 1.0;
+    }
+    let r = complex_inverse(top);
+    let w = complex_square(r);
+    // B(2n) / (2n (2n - 1)), n = 1 … 4
+    var series = vec2f(0.00079365079, 0.0) - 0.00059523810 * w;
+    series = vec2f(-0.0027777778, 0.0) + complex_mul(w, series);
+    series = vec2f(0.083333333, 0.0) + complex_mul(w, series);
+    let l = complex_log(top);
+    let power = complex_mul(vec2f(top.x - 0.5, top.y), vec2f(l.x - 1.0, l.y));
+    let value = complex_exp(power + (vec2f(0.41893853, 0.0) + complex_mul(r, series)));
+    return complex_div(value, product);
+}
+
+/// Γ(z). Error about 8 ulp of the norm for |z| < 8, growing as |z log z|.
+fn complex_gamma(z: vec2f) -> vec2f {
+    if z.y == 0.0 {
+        return vec2f(real_gamma(z.x), flip_sign(z.y, select(0x80000000u, 0u, z.x > 1.4616321)));
+    }
+    if !is_finite(z.x) || !is_finite(z.y) {
+        return vec2f(make_nan(z.x), make_nan(z.y));
+    }
+    if z.x < 0.5 && !is_gamma_far(z) {
+        // Γ(z) = -π / (z sin πz Γ(-z))
+        let below = complex_mul(complex_mul(z, complex_sin_pi(z)), gamma_of_right(-z));
+        return -3.1415927 * complex_inverse(below);
+    }
+    return gamma_of_right(z);
+}
+
+/// ψ(z) = Γ′(z)/Γ(z). Error a few ulp of max(|ψ|, 1).
+fn complex_digamma(z: vec2f) -> vec2f {
+    if z.y == 0.0 {
+        return vec2f(real_digamma(z.x), z.y);
+    }
+    if !is_finite(z.x) || !is_finite(z.y) {
+        return complex_log(z);
+    }
+    let left = z.x < 0.0 && !is_gamma_far(z);
+    var top = select(z, -z, left);
+    var sum = vec2f(0.0, 0.0);
+    if left { // ψ(z) = ψ(-z) - 1/z - π cot πz
+        sum = complex_inverse(z) + complex_pi_cot_pi(z);
+    }
+    while !is_gamma_far(top) {
+        sum += complex_inverse(top);
+        top.x += 1.0;
+    }
+    let r = complex_inverse(top);
+    let w = complex_square(r);
+    // B(2n) / (2n), n = 1 … 4
+    var series = vec2f(0.0039682540, 0.0) - 0.0041666667 * w;
+    series = vec2f(-0.0083333333, 0.0) + complex_mul(w, series);
+    series = vec2f(0.083333333, 0.0) + complex_mul(w, series);
+    return (complex_log(top) - sum) - (0.5 * r + complex_mul(w, series));
+}
+
+/// ψ′(z). Error a few ulp of the norm.
+fn complex_trigamma(z: vec2f) -> vec2f {
+    if z.y == 0.0 {
+        return vec2f(real_trigamma(z.x), -z.y);
+    }
+    if !is_finite(z.x) || !is_finite(z.y) {
+        return select(vec2f(0.0, 0.0), vec2f(make_nan(z.x), make_nan(z.y)), complex_has_nan(z));
+    }
+    let left = z.x < 0.0 && !is_gamma_far(z);
+    var top = select(z, -z, left);
+    var sum = vec2f(0.0, 0.0);
+    if left { // ψ′(z) = π² / sin² πz - (ψ′(-z) - 1/z²)
+        top.x += 1.0;
+    }
+    while !is_gamma_far(top) {
+        sum += complex_square(complex_inverse(top));
+        top.x += 1.0;
+    }
+    let r = complex_inverse(top);
+    let w = complex_square(r);
+    // B(2n), n = 1 … 4
+    var series = vec2f(0.023809524, 0.0) - 0.033333333 * w;
+    series = vec2f(-0.033333333, 0.0) + complex_mul(w, series);
+    series = vec2f(0.16666667, 0.0) + complex_mul(w, series);
+    let far = sum + (r + complex_mul(w, vec2f(0.5, 0.0) + complex_mul(r, series)));
+    if left {
+        return complex_square(3.1415927 * complex_inverse(complex_sin_pi(z))) - far;
+    }
+    return far;
+}
