@@ -25,7 +25,7 @@ fn complex_div_i(z: vec2f) -> vec2f {
 /// has that error, not its own.
 fn complex_mul(z: vec2f, w: vec2f) -> vec2f {
     let p = vec2f(z.x * w.x - z.y * w.y, z.x * w.y + z.y * w.x);
-    if is_nan(p.x) && is_nan(p.y) {
+    if is_nan(p.x) || is_nan(p.y) {
         return complex_mul_special(z, w, p);
     }
     return p;
@@ -45,7 +45,21 @@ fn complex_without_nan(z: vec2f) -> vec2f {
 }
 
 fn complex_mul_special(z: vec2f, w: vec2f, plain: vec2f) -> vec2f {
-    if complex_has_nan(z) && !complex_is_infinite(z) || complex_has_nan(w) && !complex_is_infinite(w) {
+    let infinite = complex_is_infinite(z) || complex_is_infinite(w);
+    if !infinite && (complex_has_nan(z) || complex_has_nan(w)) {
+        return plain;
+    }
+    if !infinite { // the products overflowed: in smaller numbers
+        let e = complex_exponent(z);
+        let f = complex_exponent(w);
+        let c = z * power_of_two(-e);
+        let d = w * power_of_two(-f);
+        return vec2f(
+            times_power_of_two(c.x * d.x - c.y * d.y, e + f),
+            times_power_of_two(c.x * d.y + c.y * d.x, e + f),
+        );
+    }
+    if !(is_nan(plain.x) && is_nan(plain.y)) {
         return plain;
     }
     var a = z;
@@ -58,15 +72,15 @@ fn complex_mul_special(z: vec2f, w: vec2f, plain: vec2f) -> vec2f {
         b = complex_box(b);
         a = complex_without_nan(a);
     }
-    // finite factors whose products overflow: their directions do not
-    a *= 1.0 / max(1.0, max(magnitude(a.x), magnitude(a.y)));
-    b *= 1.0 / max(1.0, max(magnitude(b.x), magnitude(b.y)));
+    a = complex_without_nan(a) * power_of_two(-complex_exponent(a));
+    b = complex_without_nan(b) * power_of_two(-complex_exponent(b));
     return make_infinity(1.0) * vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
 /// z², each component to 2 ulp: (x - y)(x + y) + 2 i x y.
 fn complex_square(z: vec2f) -> vec2f {
-    let p = vec2f((z.x - z.y) * (z.x + z.y), 2.0 * z.x * z.y);
+    let xy = z.x * z.y;
+    let p = vec2f((z.x - z.y) * (z.x + z.y), xy + xy);
     if is_nan(p.x) {
         return complex_mul(z, z);
     }
@@ -81,7 +95,9 @@ fn complex_exponent(z: vec2f) -> i32 {
 
 /// z / w for |w| ≠ 0: both scaled by powers of two, special values after C99 G.5.1.
 fn complex_div(z: vec2f, w: vec2f) -> vec2f {
-    let ez = complex_exponent(z);
+    // z only as far as it must, lest a small component underflow
+    let size = complex_exponent(z);
+    let ez = select(select(0, 64, size > 60), -64, size < -30);
     let ew = complex_exponent(w);
     let a = z * power_of_two(-ez);
     let b = w * power_of_two(-ew);
@@ -226,11 +242,10 @@ fn complex_sqrt(z: vec2f) -> vec2f {
     }
     let half = complex_exponent(z) >> 1u; // an even power of two comes out of the root exactly
     let a = vec2f(magnitude(z.x), magnitude(z.y)) * power_of_two(-2 * half);
-    let t = sqrt(0.5 * (a.x + sqrt(a.x * a.x + a.y * a.y)));
-    let u = 0.5 * a.y / t;
-    let back = power_of_two(half);
+    let t = sqrt(0.5 * (a.x + sqrt(a.x * a.x + a.y * a.y))) * power_of_two(half);
+    let u = 0.5 * magnitude(z.y) / t; // not of the scaled one, which may have underflowed
     let negative = sign_is_set(z.x);
-    return vec2f(select(t, u, negative) * back, with_sign(select(u, t, negative) * back, z.y));
+    return vec2f(select(t, u, negative), with_sign(select(u, t, negative), z.y));
 }
 
 /// z^n by repeated squaring for |n| ≤ 64, else through `complex_pow`; z^0 = 1. Error about |n| ulp of the norm.

@@ -26,7 +26,8 @@ pub fn sum_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     if !plain.is_finite() || !cd.is_finite() {
         return a * b + cd;
     }
-    plain + c.mul_add(d, -cd)
+    let rest = c.mul_add(d, -cd);
+    if rest == 0.0 { plain } else { plain + rest } // keeps a negative zero
 }
 
 /// e with |v| in [2^e, 2^(e+1)); 0 where v is 0, infinite or NaN.
@@ -235,9 +236,14 @@ impl Complex {
         }
     }
 
-    /// 1 / z.
+    /// 1 / z = z̄ / |z|²: below the real axis for +0, which the quotient 1 / z loses.
     pub fn inverse(self) -> Self {
-        Self::ONE / self
+        let q = Self::ONE / self;
+        if self.im == 0.0 && self.re != 0.0 {
+            complex(q.re, -self.im)
+        } else {
+            q
+        }
     }
 
     /// e^z (C99 G.6.3.1).
