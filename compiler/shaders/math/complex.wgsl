@@ -1,4 +1,4 @@
-// Complex arithmetic, exponential, logarithm and powers; a number is vec2f(re, im). Branch cuts, signed zeros and
+// Complex arithmetic, exponential, logarithm and square root; a number is vec2f(re, im). Branch cuts, signed zeros and
 // infinities after C99 Annex G.
 
 /// Whether a component is infinite: then the number is, whatever the other is (C99 G.3).
@@ -97,7 +97,7 @@ fn complex_exponent(z: vec2f) -> i32 {
 fn complex_div(z: vec2f, w: vec2f) -> vec2f {
     // z only as far as it must, lest a small component underflow
     let size = complex_exponent(z);
-    let ez = select(select(0, 64, size > 60), -64, size < -30);
+    let ez = select(select(0, 8, size > 119), -64, size < -60);
     let ew = complex_exponent(w);
     let a = z * power_of_two(-ez);
     let b = w * power_of_two(-ew);
@@ -154,7 +154,8 @@ fn sum_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
     let p = two_product(a, b, zero);
     let q = two_product(c, d, zero);
     let s = two_sum(p.x, q.x, zero);
-    return s.x + (s.y + (p.y + q.y));
+    let rest = s.y + (p.y + q.y);
+    return select(s.x + rest, s.x, rest == 0.0); // keeps a negative zero
 }
 
 /// e^z; e^x may overflow where e^x cos y does not.
@@ -246,68 +247,4 @@ fn complex_sqrt(z: vec2f) -> vec2f {
     let u = 0.5 * magnitude(z.y) / t; // not of the scaled one, which may have underflowed
     let negative = sign_is_set(z.x);
     return vec2f(select(t, u, negative), with_sign(select(u, t, negative), z.y));
-}
-
-/// z^n by repeated squaring for |n| ≤ 64, else through `complex_pow`; z^0 = 1. Error about |n| ulp of the norm.
-fn complex_powi(z: vec2f, n: i32) -> vec2f {
-    var left = u32(abs(n));
-    if left == 0u {
-        return vec2f(1.0, 0.0);
-    }
-    if left > 64u {
-        return complex_pow_polar(z, vec2f(f32(n), 0.0));
-    }
-    // the squarings stay in range: |base| < 4, so |base|^64 < 2^128; the powers of two are counted apart
-    let e = complex_exponent(z);
-    var base = z * power_of_two(-e);
-    var exponent = e * i32(left);
-    var power = vec2f(1.0, 0.0);
-    var started = false;
-    for (var i = 0; i < 7; i++) {
-        if (left & 1u) == 1u {
-            if started {
-                power = complex_mul(power, base);
-            } else {
-                power = base;
-            }
-            started = true;
-        }
-        left = left >> 1u;
-        if left == 0u {
-            break;
-        }
-        base = complex_square(base);
-    }
-    if n < 0 {
-        power = complex_inverse(power);
-        exponent = -exponent;
-    }
-    exponent = clamp(exponent, -220, 220);
-    return vec2f(times_power_of_two(power.x, exponent), times_power_of_two(power.y, exponent));
-}
-
-/// z^w on the principal branch: w = 0 gives 1, a small integer w gives `complex_powi`, 0^w is 0 for Re w > 0 and infinite
-/// for Re w < 0 (NaN for the other w). Error about 1 + |w log z| ulp of the norm.
-fn complex_pow(z: vec2f, w: vec2f) -> vec2f {
-    if w.y == 0.0 && magnitude(w.x) <= 64.0 && floor(w.x) == w.x {
-        return complex_powi(z, i32(w.x));
-    }
-    return complex_pow_polar(z, w);
-}
-
-fn complex_pow_polar(z: vec2f, w: vec2f) -> vec2f {
-    if magnitude(z.x) == 0.0 && magnitude(z.y) == 0.0 {
-        if w.x > 0.0 {
-            return vec2f(0.0, 0.0);
-        }
-        if w.x < 0.0 {
-            return vec2f(make_infinity(1.0), select(make_nan(z.x), 0.0, w.y == 0.0));
-        }
-        return vec2f(make_nan(z.x), make_nan(z.x));
-    }
-    if w.y == 0.0 && z.y == 0.0 && z.x > 0.0 {
-        return vec2f(real_pow(z.x, w.x), 0.0);
-    }
-    let l = complex_log(z);
-    return complex_exp(vec2f(sum_of_products(w.x, l.x, -w.y, l.y), sum_of_products(w.x, l.y, w.y, l.x)));
 }
