@@ -81,7 +81,7 @@ fn complex_mul_special(z: vec2f, w: vec2f, plain: vec2f) -> vec2f {
 fn complex_square(z: vec2f) -> vec2f {
     let xy = z.x * z.y;
     let p = vec2f((z.x - z.y) * (z.x + z.y), xy + xy);
-    if is_nan(p.x) {
+    if is_nan(p.x) || is_nan(p.y) {
         return complex_mul(z, z);
     }
     return p;
@@ -121,7 +121,8 @@ fn complex_div_special(z: vec2f, w: vec2f) -> vec2f {
         return make_infinity(1.0) * vec2f(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y);
     }
     if complex_is_infinite(w) && is_finite(z.x) && is_finite(z.y) {
-        return vec2f(0.0, 0.0);
+        let b = complex_box(w);
+        return vec2f(with_sign(0.0, z.x * b.x + z.y * b.y), with_sign(0.0, z.y * b.x - z.x * b.y));
     }
     return vec2f(make_nan(z.x), make_nan(z.y));
 }
@@ -131,6 +132,9 @@ fn complex_inverse(z: vec2f) -> vec2f {
     let e = complex_exponent(z);
     let a = z * power_of_two(-e);
     let norm = a.x * a.x + a.y * a.y;
+    if complex_is_infinite(z) {
+        return vec2f(with_sign(0.0, z.x), with_sign(0.0, -z.y));
+    }
     if !(norm > 0.0) || !is_finite(norm) {
         return complex_div_special(vec2f(1.0, 0.0), z);
     }
@@ -167,10 +171,10 @@ fn complex_exp(z: vec2f) -> vec2f {
         return complex_exp_special(z);
     }
     let wave = real_sincos(z.y);
-    let s = split_exponent(clamp(z.x, -150.0, 150.0));
+    let s = split_exponent(clamp(z.x, -240.0, 240.0));
     let r = 1.0 + expm1_polynomial(s.x);
     let n = i32(s.y);
-    return vec2f(times_power_of_two(r * wave.y, n), times_power_of_two(r * wave.x, n));
+    return vec2f(times_wide_power_of_two(r * wave.y, n), times_wide_power_of_two(r * wave.x, n));
 }
 
 fn complex_exp_special(z: vec2f) -> vec2f {

@@ -15,7 +15,7 @@ fn complex_sin_pi(z: vec2f) -> vec2f {
     let h = scaled_sinhcosh(p.x);
     let cosh = h.cosh + low * h.sinh;
     let sinh = h.sinh + low * h.cosh;
-    return vec2f(times_power_of_two(wave.x * cosh, h.exponent), times_power_of_two(wave.y * sinh, h.exponent));
+    return vec2f(times_wide_power_of_two(wave.x * cosh, h.exponent), times_wide_power_of_two(wave.y * sinh, h.exponent));
 }
 
 /// π cot πz.
@@ -57,6 +57,12 @@ fn complex_gamma(z: vec2f) -> vec2f {
     }
     if !is_finite(z.x) || !is_finite(z.y) {
         return vec2f(make_nan(z.x), make_nan(z.y));
+    }
+    if magnitude(z.x) + magnitude(z.y) < 1e-4 { // DLMF 5.7.1
+        return complex_inverse(z) + (vec2f(-0.57721566, 0.0) + 0.98905599 * z);
+    }
+    if magnitude(z.y) > 1e3 && z.x < 100.0 { // |Γ| falls as e^(-π|y|/2)
+        return vec2f(0.0, 0.0);
     }
     if z.x < 0.5 && !is_gamma_far(z) {
         // Γ(z) = -π / (z sin πz Γ(-z))

@@ -3,14 +3,14 @@
 
 /// z^n: by repeated squaring for |n| ≤ 8 (error about |n| ulp of the norm), else as z^w; real on the real axis; z^0 = 1.
 fn complex_powi(z: vec2f, n: i32) -> vec2f {
+    if n == 0 {
+        return vec2f(1.0, 0.0);
+    }
     if magnitude(z.y) == 0.0 {
         let odd = select(0u, sign_bit(z.x), (n & 1) == 0);
         return vec2f(real_powi(z.x, n), flip_sign(0.0, odd ^ sign_bit(z.y) ^ select(0u, 0x80000000u, n < 0)));
     }
     var left = u32(abs(n));
-    if left == 0u {
-        return vec2f(1.0, 0.0);
-    }
     if left > 8u {
         return complex_pow_polar(z, vec2f(f32(n), 0.0));
     }
@@ -34,7 +34,8 @@ fn complex_powi(z: vec2f, n: i32) -> vec2f {
     if n < 0 {
         power = complex_inverse(power);
     }
-    return vec2f(times_power_of_two(power.x, exponent), times_power_of_two(power.y, exponent));
+    exponent = clamp(exponent, -360, 360);
+    return vec2f(times_wide_power_of_two(power.x, exponent), times_wide_power_of_two(power.y, exponent));
 }
 
 /// z^w on the principal branch: w = 0 gives 1, an integer w gives `complex_powi`, 0^w is 0 for Re w > 0 and infinite for
@@ -166,5 +167,5 @@ fn power_and_exp(z: vec2f, w: vec2f, low: f32, shift: vec2f) -> vec2f {
     let quarter = count - 4.0 * floor(0.25 * count);
     let turned = select(v, vec2f(-v.y, v.x), quarter == 1.0 || quarter == 3.0);
     let u = select(turned, -turned, quarter >= 2.0);
-    return vec2f(times_power_of_two(u.x, i32(n)), times_power_of_two(u.y, i32(n)));
+    return vec2f(times_wide_power_of_two(u.x, i32(n)), times_wide_power_of_two(u.y, i32(n)));
 }

@@ -238,12 +238,22 @@ impl Complex {
 
     /// 1 / z = z̄ / |z|²: below the real axis for +0, which the quotient 1 / z loses.
     pub fn inverse(self) -> Self {
-        let q = Self::ONE / self;
-        if self.im == 0.0 && self.re != 0.0 {
-            complex(q.re, -self.im)
-        } else {
-            q
+        if self.is_infinite() {
+            return complex(0.0_f64.copysign(self.re), 0.0_f64.copysign(-self.im));
         }
+        let e = exponent(self.re.abs().max(self.im.abs()));
+        let z = complex(
+            times_power_of_two(self.re, -e),
+            times_power_of_two(self.im, -e),
+        );
+        let norm = z.re * z.re + z.im * z.im;
+        if norm == 0.0 {
+            return Self::ONE / self;
+        }
+        complex(
+            times_power_of_two(z.re / norm, -e),
+            times_power_of_two(-z.im / norm, -e),
+        )
     }
 
     /// e^z (C99 G.6.3.1).
@@ -348,6 +358,13 @@ impl Complex {
 
     /// z^n for every integer n by repeated squaring: exact where the products are; z^0 = 1 for every z.
     pub fn powi(self, n: i32) -> Self {
+        if self.im == 0.0 && n != 0 {
+            let flip = (n % 2 == 0 && self.re.is_sign_negative()) != (n < 0);
+            return complex(
+                self.re.powf(f64::from(n)),
+                if flip { -self.im } else { self.im },
+            );
+        }
         // the powers of two are counted apart, lest a square overflow on the way to a small result
         let normal = |z: Self, e: i64| {
             let shift = exponent(z.re.abs().max(z.im.abs()));
