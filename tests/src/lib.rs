@@ -1,1 +1,2 @@
 //! Suites that cross the crates of pullback, and what they share.
+pub mod accuracy;

@@ -1,0 +1,7 @@
+//! How accurate functions and formulas are: references, errors, bounds, and the evaluators that are judged.
+
+pub mod error;
+pub mod evaluators;
+pub mod measure;
+pub mod subjects;
+pub mod tables;

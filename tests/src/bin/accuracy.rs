@@ -1,0 +1,31 @@
+//! Measures the accuracy of every function.
+use pullback_compiler::lower::Precision;
+use pullback_runtime::Gpu;
+use pullback_tests::accuracy::evaluators::Machine;
+use pullback_tests::accuracy::measure::measure;
+use pullback_tests::accuracy::subjects::subjects;
+
+fn main() {
+    let gpu = Gpu::open(&pullback_runtime::AdapterChoice::Software).unwrap();
+    for machine in [Machine::Reference, Machine::Gpu(Box::new(gpu), Precision::Accurate)] {
+        println!("== {:?}", machine.format());
+        for s in subjects() {
+            let t = std::time::Instant::now();
+            match measure(&s, &machine) {
+                Err(e) => println!("{} {}: {e}", s.word, s.domain),
+                Ok(m) => {
+                    for (k, e) in [Some(&m.value), m.derivative.as_ref()].into_iter().enumerate() {
+                        let Some([c, n]) = e else { continue };
+                        println!(
+                            "{:14} {:8} {} {:5} {:12.2} {:10.2} norm {:12.2}  {:.0?} {}",
+                            s.word, s.domain.to_string(), ["f", "d"][k], c.count(), c.max(), c.percentile(), n.max(), t.elapsed(), c.worst
+                        );
+                        for w in &c.wrong {
+                            println!("    WRONG {w}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
