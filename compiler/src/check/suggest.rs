@@ -10,7 +10,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .into_iter()
         .filter(|c| *c != name)
         .map(|c| (distance(&letters, &c.chars().take(64).collect::<Vec<_>>()), c))
-        .filter(|(d, c)| *d <= limit && *d < c.chars().count().max(2))
+        .filter(|(d, c)| *d <= limit && *d < c.chars().count().max(letters.len()))
         .min_by_key(|(d, c)| (*d, c.len(), *c))
         .map(|(_, c)| c)
 }

@@ -210,9 +210,9 @@ impl Lowering<'_, '_, '_> {
     fn special(&mut self, value: f64) -> Result<Handle<Expression>, LowerError> {
         let seed = self.body.literal(0.0);
         if value.is_nan() {
-            return self.library("real_nan", vec![seed]);
+            return self.library("make_nan", vec![seed]);
         }
-        let infinity = self.library("real_infinity", vec![seed])?;
+        let infinity = self.library("make_infinity", vec![seed])?;
         Ok(if value > 0.0 { infinity } else { self.unary(naga::UnaryOperator::Negate, infinity) })
     }
 

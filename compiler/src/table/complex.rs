@@ -87,7 +87,7 @@ pub fn rows() -> Vec<Row> {
             real: Some(|a| 0.0_f64.atan2(a[0])),
             complex: None,
             derivative: Derivative::Structural,
-            gpu: Gpu::Library("real_arg", None),
+            gpu: Gpu::Structural,
             gpu_complex: "complex_arg",
             cost: Weight { real: 2, complex: 16 },
         },

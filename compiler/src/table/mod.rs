@@ -178,3 +178,44 @@ pub fn by_name(name: &str) -> Option<&'static Row> {
         .get_or_init(|| rows().iter().flat_map(|r| r.names.iter().map(move |&n| (n, r))).collect());
     index.get(name).copied()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_mnemonics_are_unique() {
+        let mut names: Vec<&str> = rows().iter().flat_map(|r| r.names.iter().copied()).collect();
+        let mut mnemonics: Vec<&str> = rows().iter().map(|r| r.mnemonic).collect();
+        for list in [&mut names, &mut mnemonics] {
+            let count = list.len();
+            list.sort_unstable();
+            list.dedup();
+            assert_eq!(list.len(), count);
+        }
+    }
+
+    /// Every library function that a row names exists in the shader library.
+    #[test]
+    fn shader_functions_exist() {
+        let known: Vec<&str> = crate::link::math_module()
+            .functions
+            .iter()
+            .filter_map(|(_, f)| f.name.as_deref())
+            .collect();
+        for row in rows() {
+            if let Gpu::Library(name, _) = row.gpu {
+                assert!(known.contains(&name), "{name}");
+            }
+            if !row.gpu_complex.is_empty() {
+                assert!(known.contains(&row.gpu_complex), "{}", row.gpu_complex);
+            }
+            if let Some(pair) = pair(row.prim) {
+                assert!(known.contains(&pair.gpu) && known.contains(&pair.gpu_complex));
+            }
+        }
+        for name in ["make_infinity", "make_nan", "real_powi"] {
+            assert!(known.contains(&name), "{name}");
+        }
+    }
+}
