@@ -74,7 +74,8 @@ impl Graph {
     }
 
     fn is_real(&self, id: Id, value: f64) -> bool {
-        self.as_real(id).is_some_and(|v| v.to_bits() == value.to_bits())
+        self.as_real(id)
+            .is_some_and(|v| v.to_bits() == value.to_bits())
     }
 
     fn rewrite(&mut self, prim: Prim, args: &[Id]) -> Option<Id> {
@@ -195,7 +196,11 @@ impl Graph {
     fn rewrite_pow_int(&mut self, x: Id, n: i32) -> Option<Id> {
         match n {
             // x^0 = 1, NaN^0 = 1 (C99 F.9.4.4)
-            0 => Some(if self.ty(x) == Ty::Complex { self.complex(1.0, 0.0) } else { self.real(1.0) }),
+            0 => Some(if self.ty(x) == Ty::Complex {
+                self.complex(1.0, 0.0)
+            } else {
+                self.real(1.0)
+            }),
             // x^1 = x
             1 => Some(x),
             // x^-1 = 1/x
@@ -325,14 +330,21 @@ mod tests {
     fn rewrites_hold_bit_for_bit() {
         let mut state = 0x9e37_79b9_7f4a_7c15_u64;
         let mut next = |n: usize| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             usize::try_from(state >> 33).unwrap_or(0) % n
         };
         let mut rewritten = 0;
         for _ in 0..4000 {
             let (mut plain, mut simple) = (Graph::new(), Graph::new());
             let mut pairs: Vec<(Id, Id)> = (0..2)
-                .map(|k| (plain.leaf(Op::Input(k), Ty::Real), simple.leaf(Op::Input(k), Ty::Real)))
+                .map(|k| {
+                    (
+                        plain.leaf(Op::Input(k), Ty::Real),
+                        simple.leaf(Op::Input(k), Ty::Real),
+                    )
+                })
                 .collect();
             for _ in 0..2 {
                 let value = SPECIAL[next(SPECIAL.len())];
@@ -344,10 +356,15 @@ mod tests {
                     .map(|_| pairs[next(pairs.len())])
                     .collect();
                 let (a, b): (Vec<Id>, Vec<Id>) = args.into_iter().unzip();
-                pairs.push((plain.intern(Op::Apply(prim), Ty::Real, &a), simple.apply(prim, &b)));
+                pairs.push((
+                    plain.intern(Op::Apply(prim), Ty::Real, &a),
+                    simple.apply(prim, &b),
+                ));
             }
             let (a, b) = pairs[pairs.len() - 1];
-            rewritten += usize::from(plain.compacted(&[a]).0.nodes().len() > simple.compacted(&[b]).0.nodes().len());
+            rewritten += usize::from(
+                plain.compacted(&[a]).0.nodes().len() > simple.compacted(&[b]).0.nodes().len(),
+            );
             assert_same(&plain, a, &simple, b);
         }
         assert!(rewritten > 1000, "only {rewritten} trees became smaller");
@@ -358,12 +375,21 @@ mod tests {
         for x in SPECIAL {
             for y in SPECIAL {
                 let inputs = [Number::Real(x), Number::Real(y)];
-                let leaves = Leaves { inputs: &inputs, params: &[], time: 0.0, pixel: 0.0 };
+                let leaves = Leaves {
+                    inputs: &inputs,
+                    params: &[],
+                    time: 0.0,
+                    pixel: 0.0,
+                };
                 let run = |tape: &mut Tape| {
                     let mut bits = 0;
                     tape.run(&leaves, |v| {
                         if let Number::Real(v) = v {
-                            bits = if v.is_nan() { f64::NAN.to_bits() } else { v.to_bits() };
+                            bits = if v.is_nan() {
+                                f64::NAN.to_bits()
+                            } else {
+                                v.to_bits()
+                            };
                         }
                     });
                     bits
