@@ -3,7 +3,9 @@
 use pullback_grammar::ast::{Expr, ExprId, File, Function, Item, Param, Show};
 use pullback_grammar::{Diagnostic, Span};
 
-use crate::check::{Builder, Symbols, Value, check_names, free_variables, is_builtin_function, nearest};
+use crate::check::{
+    Builder, Symbols, Value, check_names, free_variables, is_builtin_function, nearest,
+};
 use crate::formula::{Formula, Input, argument_value, scalar_types};
 use crate::ir::Graph;
 use crate::scene::{Scene, SettingKind, SettingSpec, Space, default_scene, scene, scenes};
@@ -46,7 +48,10 @@ impl Picture {
     /// The value of a setting.
     #[must_use]
     pub fn setting(&self, name: &str) -> Option<[f64; 3]> {
-        self.settings.iter().find(|s| s.spec.name == name).map(|s| s.value)
+        self.settings
+            .iter()
+            .find(|s| s.spec.name == name)
+            .map(|s| s.value)
     }
 }
 
@@ -99,7 +104,11 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
     let file = &parsed.file;
     let symbols = Symbols::collect(file, &mut diagnostics);
     check_names(file, &symbols, &mut diagnostics);
-    let mut checker = Checker { file, symbols: &symbols, diagnostics };
+    let mut checker = Checker {
+        file,
+        symbols: &symbols,
+        diagnostics,
+    };
     let params = checker.params();
     let pictures = checker.pictures();
     let mut diagnostics = checker.diagnostics;
@@ -109,7 +118,10 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
     diagnostics.dedup_by(|a, b| a.span == b.span && a.code == b.code && a.message == b.message);
     let failed = diagnostics.iter().any(Diagnostic::is_error);
     let program = (!failed && !pictures.is_empty()).then_some(Program { params, pictures });
-    Compilation { program, diagnostics }
+    Compilation {
+        program,
+        diagnostics,
+    }
 }
 
 /// What a picture shows: a function, or a formula in free variables.
@@ -136,7 +148,9 @@ impl<'a> Checker<'a> {
     }
 
     fn param(&mut self, param: &'a Param) -> ParamInfo {
-        let default = self.constant(param.default, "the default of a parameter").unwrap_or(0.0);
+        let default = self
+            .constant(param.default, "the default of a parameter")
+            .unwrap_or(0.0);
         let reach = default.abs().max(1.0);
         let (mut lo, mut hi) = (default - reach, default + reach);
         if let Some((from, to)) = param.range {
@@ -159,7 +173,12 @@ impl<'a> Checker<'a> {
                 );
             }
         }
-        ParamInfo { name: param.name.text.clone(), default, lo, hi }
+        ParamInfo {
+            name: param.name.text.clone(),
+            default,
+            lo,
+            hi,
+        }
     }
 
     /// The value of a real constant expression; reports one that is not.
@@ -182,8 +201,12 @@ impl<'a> Checker<'a> {
     fn not_constant(&mut self, expr: ExprId, what: &str) {
         let span = self.file.exprs.span(expr);
         self.diagnostics.push(
-            Diagnostic::error("not-constant", span, format!("{what} must be a finite real constant"))
-                .with_hint("it may use numbers and constants, but no parameters and no inputs"),
+            Diagnostic::error(
+                "not-constant",
+                span,
+                format!("{what} must be a finite real constant"),
+            )
+            .with_hint("it may use numbers and constants, but no parameters and no inputs"),
         );
     }
 
@@ -201,7 +224,10 @@ impl<'a> Checker<'a> {
         if shows.is_empty() {
             return self.default_picture().into_iter().collect();
         }
-        shows.into_iter().filter_map(|show| self.picture(show)).collect()
+        shows
+            .into_iter()
+            .filter_map(|show| self.picture(show))
+            .collect()
     }
 
     /// At most one bare formula can be meant.
@@ -238,8 +264,12 @@ impl<'a> Checker<'a> {
         let Some(subject) = formula.or(named.or(last).map(Subject::Function)) else {
             if !self.diagnostics.iter().any(Diagnostic::is_error) {
                 self.diagnostics.push(
-                    Diagnostic::error("nothing-to-show", Span::default(), "there is no formula to show")
-                        .with_hint("write one, such as sin(x^2 + y^2)"),
+                    Diagnostic::error(
+                        "nothing-to-show",
+                        Span::default(),
+                        "there is no formula to show",
+                    )
+                    .with_hint("write one, such as sin(x^2 + y^2)"),
                 );
             }
             return None;
@@ -253,7 +283,11 @@ impl<'a> Checker<'a> {
         }
         let scene = default_scene(space);
         let formula = self.check_result(scene, &formula, span)?;
-        Some(Picture { scene, settings: default_settings(scene), formula })
+        Some(Picture {
+            scene,
+            settings: default_settings(scene),
+            formula,
+        })
     }
 
     fn subject_span(&self, subject: Subject) -> Span {
@@ -290,7 +324,9 @@ impl<'a> Checker<'a> {
                 function.params[0].name.span,
                 format!("what `{name}` is cannot be told"),
             )
-            .with_hint(format!("write `{name}: complex`, `{name}: vec2` or `{name}: vec3`")),
+            .with_hint(format!(
+                "write `{name}: complex`, `{name}: vec2` or `{name}: vec3`"
+            )),
             _ => Diagnostic::error(
                 "no-scene",
                 function.name.span,
@@ -311,10 +347,11 @@ impl<'a> Checker<'a> {
                 show.scene.span,
                 format!("unknown scene `{}`", show.scene.text),
             );
-            self.diagnostics.push(match nearest(&show.scene.text, names) {
-                Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
-                None => problem.with_hint(format!("scenes are {}", list.join(", "))),
-            });
+            self.diagnostics
+                .push(match nearest(&show.scene.text, names) {
+                    Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
+                    None => problem.with_hint(format!("scenes are {}", list.join(", "))),
+                });
             return None;
         };
         let &[arg] = show.args.as_slice() else {
@@ -322,7 +359,11 @@ impl<'a> Checker<'a> {
                 Diagnostic::error(
                     "wrong-arity",
                     show.span,
-                    format!("`{}` shows one function, not {}", scene.name, show.args.len()),
+                    format!(
+                        "`{}` shows one function, not {}",
+                        scene.name,
+                        show.args.len()
+                    ),
                 )
                 .with_hint(format!("write show {}(f)", scene.name)),
             );
@@ -338,7 +379,12 @@ impl<'a> Checker<'a> {
         let span = self.file.exprs.span(arg);
         let formula = self.formula(subject, scene.space, span);
         let settings = self.finish_settings(scene, show);
-        self.check_result(scene, &formula?, span).map(|formula| Picture { scene, settings, formula })
+        self.check_result(scene, &formula?, span)
+            .map(|formula| Picture {
+                scene,
+                settings,
+                formula,
+            })
     }
 
     fn check_result(&mut self, scene: &Scene, formula: &Formula, span: Span) -> Option<Formula> {
@@ -349,11 +395,18 @@ impl<'a> Checker<'a> {
         if fits {
             return Some(formula.clone());
         }
-        let wanted = if scene.space == Space::Complex { "a complex number" } else { "a real number" };
+        let wanted = if scene.space == Space::Complex {
+            "a complex number"
+        } else {
+            "a real number"
+        };
         let problem = Diagnostic::error(
             "wrong-result-type",
             span,
-            format!("`{}` shows {wanted}, but this is {}", scene.name, formula.ty),
+            format!(
+                "`{}` shows {wanted}, but this is {}",
+                scene.name, formula.ty
+            ),
         );
         self.diagnostics.push(match formula.ty {
             Type::Complex => problem.with_hint("show abs(f), re(f) or im(f), or use `domain`"),
@@ -395,7 +448,10 @@ impl<'a> Checker<'a> {
                 Diagnostic::error(
                     "too-large",
                     span,
-                    format!("the formula needs more than {} operations", Graph::MAX_NODES),
+                    format!(
+                        "the formula needs more than {} operations",
+                        Graph::MAX_NODES
+                    ),
                 )
                 .with_hint("functions that call others many times multiply; name what repeats"),
             );
@@ -405,13 +461,23 @@ impl<'a> Checker<'a> {
         let inputs = declared
             .iter()
             .zip(types)
-            .map(|((name, _), ty)| Input { name: (*name).to_owned(), ty })
+            .map(|((name, _), ty)| Input {
+                name: (*name).to_owned(),
+                ty,
+            })
             .collect();
         let name = match subject {
             Subject::Function(function) => function.name.text.clone(),
             Subject::Formula(_) => "f".to_owned(),
         };
-        Some(Formula { name, inputs, value: value.ids(), graph: builder.graph, ty, span })
+        Some(Formula {
+            name,
+            inputs,
+            value: value.ids(),
+            graph: builder.graph,
+            ty,
+            span,
+        })
     }
 
     /// Inputs of a bare formula: those of the space, or the vector p where it uses that.
@@ -438,7 +504,10 @@ impl<'a> Checker<'a> {
                 Diagnostic::error(
                     "unknown-name",
                     self.file.exprs.span(body),
-                    format!("`{stray}` is not an input here, those are {}", names.join(", ")),
+                    format!(
+                        "`{stray}` is not an input here, those are {}",
+                        names.join(", ")
+                    ),
                 )
                 .with_hint("name the inputs: f(x, y) = …, f(z) = … or f(x, y, z) = …"),
             );
@@ -489,14 +558,20 @@ impl<'a> Checker<'a> {
                 continue;
             };
             if let Some(upper) = setting.upper {
-                let span = self.file.exprs.span(setting.value).join(self.file.exprs.span(upper));
+                let span = self
+                    .file
+                    .exprs
+                    .span(setting.value)
+                    .join(self.file.exprs.span(upper));
                 self.diagnostics.push(
                     Diagnostic::error("type-mismatch", span, format!("`{name}` is not a range"))
                         .with_hint("write one value"),
                 );
                 continue;
             }
-            let Some(value) = self.setting_value(spec, setting.value) else { continue };
+            let Some(value) = self.setting_value(spec, setting.value) else {
+                continue;
+            };
             if let Some(slot) = settings.iter_mut().find(|s| s.spec.name == name) {
                 slot.value = value;
             }
@@ -511,10 +586,11 @@ impl<'a> Checker<'a> {
             format!("`{}` has no setting `{}`", scene.name, name.text),
         );
         let names: Vec<&str> = scene.settings.iter().map(|s| s.name).collect();
-        self.diagnostics.push(match nearest(&name.text, names.iter().copied()) {
-            Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
-            None => problem.with_hint(format!("it has {}", names.join(", "))),
-        });
+        self.diagnostics
+            .push(match nearest(&name.text, names.iter().copied()) {
+                Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
+                None => problem.with_hint(format!("it has {}", names.join(", "))),
+            });
     }
 
     fn setting_value(&mut self, spec: &SettingSpec, expr: ExprId) -> Option<[f64; 3]> {
@@ -525,13 +601,11 @@ impl<'a> Checker<'a> {
                 _ => None,
             };
             let Some(place) = found else {
-                self.diagnostics.push(
-                    Diagnostic::error(
-                        "type-mismatch",
-                        span,
-                        format!("`{}` is one of {}", spec.name, words.join(", ")),
-                    ),
-                );
+                self.diagnostics.push(Diagnostic::error(
+                    "type-mismatch",
+                    span,
+                    format!("`{}` is one of {}", spec.name, words.join(", ")),
+                ));
                 return None;
             };
             #[allow(clippy::cast_precision_loss, reason = "a place in a short list")]
@@ -545,8 +619,11 @@ impl<'a> Checker<'a> {
             SettingKind::Vec3 => 3,
             _ => 1,
         };
-        let components: Option<Vec<f64>> =
-            value.ids().iter().map(|&id| builder.graph.as_real(id)).collect();
+        let components: Option<Vec<f64>> = value
+            .ids()
+            .iter()
+            .map(|&id| builder.graph.as_real(id))
+            .collect();
         let numbers = match (value, components) {
             (Value::Error, _) => return None,
             (_, Some(numbers)) if numbers.iter().all(|x| x.is_finite()) => numbers,
@@ -563,7 +640,11 @@ impl<'a> Checker<'a> {
                 self.diagnostics.push(Diagnostic::error(
                     "type-mismatch",
                     span,
-                    format!("`{}` takes {size} number(s), found {}", spec.name, numbers.len()),
+                    format!(
+                        "`{}` takes {size} number(s), found {}",
+                        spec.name,
+                        numbers.len()
+                    ),
                 ));
                 return None;
             }
@@ -572,8 +653,7 @@ impl<'a> Checker<'a> {
             Ok(()) => Some(out),
             Err(message) => {
                 self.diagnostics.push(
-                    Diagnostic::error("setting-out-of-range", span, message)
-                        .with_hint(spec.doc),
+                    Diagnostic::error("setting-out-of-range", span, message).with_hint(spec.doc),
                 );
                 None
             }
@@ -586,7 +666,12 @@ fn declared(function: &Function) -> Vec<(&str, Option<Type>)> {
     function
         .params
         .iter()
-        .map(|p| (p.name.text.as_str(), p.ty.as_ref().and_then(|t| Type::from_name(&t.text))))
+        .map(|p| {
+            (
+                p.name.text.as_str(),
+                p.ty.as_ref().and_then(|t| Type::from_name(&t.text)),
+            )
+        })
         .collect()
 }
 
@@ -611,5 +696,12 @@ fn input_types(space: Space, declared: &[(&str, Option<Type>)]) -> Option<Vec<Ty
 }
 
 fn default_settings(scene: &'static Scene) -> Vec<SettingValue> {
-    scene.settings.iter().map(|spec| SettingValue { spec, value: spec.default }).collect()
+    scene
+        .settings
+        .iter()
+        .map(|spec| SettingValue {
+            spec,
+            value: spec.default,
+        })
+        .collect()
 }

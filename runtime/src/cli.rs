@@ -10,6 +10,7 @@ mod functions;
 mod overrides;
 mod progress;
 mod render;
+mod scale;
 mod scenes;
 mod source;
 mod spelling;

@@ -3,7 +3,7 @@
 // Settings:
 // | name         | type  | default          | range      | unit   | meaning |
 // | spacing      | f32   | 0                | 0..        | value  | between level lines; 0: a quarter of color_scale |
-// | color_scale  | f32   | 1                | >0         | value  | where the colour has gone 71 % of the way to its end |
+// | color_scale  | f32   | from the view    | >0         | value  | where the colour has gone 71 % of the way to its end |
 // | line_width   | f32   | 1.2              | 0..20      | pixels | of level lines |
 // | zero_width   | f32   | 2.6              | 0..20      | pixels | of the line f = 0; 0: like the others |
 // | line_opacity | f32   | 0.5              | 0..1       |        | of level lines |

@@ -107,12 +107,18 @@ impl<'a> Builder<'a> {
                 self.unary(*op, &value, span)
             }
             Expr::Compare { first, rest } => self.comparison(*first, rest),
-            Expr::Call { callee, primes, args } => self.call(callee, *primes, args, span),
+            Expr::Call {
+                callee,
+                primes,
+                args,
+            } => self.call(callee, *primes, args, span),
             Expr::Member { base, field } => self.swizzle(*base, field),
             Expr::Vector(items) => self.vector(items),
-            Expr::If { cond, then, otherwise } => {
-                self.choice(std::iter::once((*cond, *then)), Some(*otherwise), span)
-            }
+            Expr::If {
+                cond,
+                then,
+                otherwise,
+            } => self.choice(std::iter::once((*cond, *then)), Some(*otherwise), span),
             Expr::Piecewise { arms, otherwise } => {
                 self.choice(arms.iter().copied(), *otherwise, span)
             }
@@ -249,7 +255,11 @@ impl<'a> Builder<'a> {
                 None => failed = true,
             }
         }
-        if failed { Value::Error } else { Value::Vector(ids) }
+        if failed {
+            Value::Error
+        } else {
+            Value::Vector(ids)
+        }
     }
 
     fn swizzle(&mut self, base: ExprId, field: &'a Name) -> Value {
@@ -258,7 +268,9 @@ impl<'a> Builder<'a> {
             Value::Error => return Value::Error,
             Value::Vector(items) => items.clone(),
             Value::Scalar(_) => {
-                let Some(ty) = value.ty(&self.graph) else { return Value::Error };
+                let Some(ty) = value.ty(&self.graph) else {
+                    return Value::Error;
+                };
                 let problem = Diagnostic::error(
                     "bad-swizzle",
                     field.span,
@@ -301,7 +313,9 @@ impl<'a> Builder<'a> {
 
     /// The function of the program with this name.
     pub(super) fn user_function(&self, name: &str) -> Option<&'a Function> {
-        (self.source == Source::Program).then(|| self.symbols.functions.get(name).copied()).flatten()
+        (self.source == Source::Program)
+            .then(|| self.symbols.functions.get(name).copied())
+            .flatten()
     }
 
     /// Where an expression of the current text stands, in the user's text.

@@ -6,7 +6,8 @@ use rustc_hash::FxHashMap;
 
 use super::symbols::reserved;
 use super::{
-    Symbols, builtins, is_builtin_function, is_builtin_value, is_reserved_function, library, nearest,
+    Symbols, builtins, is_builtin_function, is_builtin_value, is_reserved_function, library,
+    nearest,
 };
 use crate::table;
 
@@ -52,7 +53,10 @@ pub fn free_variables(file: &File, symbols: &Symbols, formula: ExprId) -> Vec<&'
     let mut walk = Walk::new(&file.exprs, symbols, &mut ignored);
     walk.formula(formula);
     let free = std::mem::take(&mut walk.free);
-    FREE_NAMES.into_iter().filter(|name| free.contains(name)).collect()
+    FREE_NAMES
+        .into_iter()
+        .filter(|name| free.contains(name))
+        .collect()
 }
 
 struct Walk<'a, 'd> {
@@ -113,7 +117,11 @@ impl<'a, 'd> Walk<'a, 'd> {
                 self.diagnostics.push(unknown_type(ty));
             }
         }
-        self.scope = function.params.iter().map(|p| p.name.text.as_str()).collect();
+        self.scope = function
+            .params
+            .iter()
+            .map(|p| p.name.text.as_str())
+            .collect();
         self.definition(&function.name.text, function.body);
         self.scope.clear();
     }
@@ -152,8 +160,14 @@ impl<'a, 'd> Walk<'a, 'd> {
             }
             Expr::Member { base, .. } => self.expr(*base),
             Expr::Vector(items) => items.iter().for_each(|e| self.expr(*e)),
-            Expr::If { cond, then, otherwise } => {
-                [cond, then, otherwise].into_iter().for_each(|e| self.expr(*e));
+            Expr::If {
+                cond,
+                then,
+                otherwise,
+            } => {
+                [cond, then, otherwise]
+                    .into_iter()
+                    .for_each(|e| self.expr(*e));
             }
             Expr::Piecewise { arms, otherwise } => {
                 for (cond, value) in arms {
@@ -169,7 +183,8 @@ impl<'a, 'd> Walk<'a, 'd> {
     fn locals(&mut self, body: ExprId, locals: &'a [(Name, ExprId)]) {
         let depth = self.scope.len();
         let pending = self.pending.len();
-        self.pending.extend(locals.iter().rev().map(|(name, _)| name));
+        self.pending
+            .extend(locals.iter().rev().map(|(name, _)| name));
         for (name, value) in locals {
             if let Some(problem) = reserved(name) {
                 self.diagnostics.push(problem);
@@ -251,9 +266,8 @@ impl<'a, 'd> Walk<'a, 'd> {
             .chain(["pi", "tau", "phi", "e", "time", "pixel"]);
         match nearest(text, candidates) {
             Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
-            None if text == "z" && !self.in_formula => problem.with_hint(
-                "add z to the function's parameters, or define it with `where z = …`",
-            ),
+            None if text == "z" && !self.in_formula => problem
+                .with_hint("add z to the function's parameters, or define it with `where z = …`"),
             None => problem.with_hint(format!(
                 "define it: `{text} = …`, or `param {text} = 1 in 0..2` for a slider"
             )),
@@ -263,9 +277,8 @@ impl<'a, 'd> Walk<'a, 'd> {
     /// `xy` as `x y`, where every letter has a meaning.
     fn as_product(&self, text: &str) -> Option<String> {
         let letters: Vec<String> = text.chars().map(String::from).collect();
-        let known = |l: &String| {
-            self.is_value(l) || (self.in_formula && FREE_NAMES.contains(&l.as_str()))
-        };
+        let known =
+            |l: &String| self.is_value(l) || (self.in_formula && FREE_NAMES.contains(&l.as_str()));
         (letters.len() > 1 && letters.iter().all(known)).then(|| letters.join(" "))
     }
 
@@ -281,9 +294,13 @@ impl<'a, 'd> Walk<'a, 'd> {
         if let Some(function) = self.symbols.functions.get(text).copied() {
             self.record_use(text, callee.span);
             if function.params.len() != given {
-                let problem =
-                    wrong_arity(callee, given, &function.params.len().to_string(), &signature(function))
-                        .with_related(function.name.span, "defined here");
+                let problem = wrong_arity(
+                    callee,
+                    given,
+                    &function.params.len().to_string(),
+                    &signature(function),
+                )
+                .with_related(function.name.span, "defined here");
                 self.diagnostics.push(problem);
             }
             return;
@@ -301,7 +318,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
         if let Some((expected, usage)) = builtin_arity(text, given) {
             if let Some(expected) = expected {
-                self.diagnostics.push(wrong_arity(callee, given, &expected, &usage));
+                self.diagnostics
+                    .push(wrong_arity(callee, given, &expected, &usage));
             }
             return;
         }
@@ -319,12 +337,18 @@ impl<'a, 'd> Walk<'a, 'd> {
         let known = table::rows()
             .iter()
             .flat_map(|r| r.names.iter().copied())
-            .chain(builtins::builtins().iter().flat_map(|b| b.names.iter().copied()))
+            .chain(
+                builtins::builtins()
+                    .iter()
+                    .flat_map(|b| b.names.iter().copied()),
+            )
             .chain(library::library_functions().iter().map(|f| f.name))
             .chain(self.symbols.functions.keys().copied());
         match nearest(text, known) {
             Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
-            None => problem.with_hint(format!("define it: `{text}(x) = …`, or write a product with a sign or a blank")),
+            None => problem.with_hint(format!(
+                "define it: `{text}(x) = …`, or write a product with a sign or a blank"
+            )),
         }
     }
 
@@ -337,8 +361,11 @@ impl<'a, 'd> Walk<'a, 'd> {
 
 fn unknown_type(ty: &Name) -> Diagnostic {
     let types = ["real", "complex", "vec2", "vec3", "vec4", "bool"];
-    let problem =
-        Diagnostic::error("unknown-type", ty.span, format!("unknown type `{}`", ty.text));
+    let problem = Diagnostic::error(
+        "unknown-type",
+        ty.span,
+        format!("unknown type `{}`", ty.text),
+    );
     match nearest(&ty.text, types) {
         Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
         None => problem.with_hint("types are real, complex, vec2, vec3, vec4 and bool"),
@@ -363,7 +390,10 @@ fn wrong_arity(callee: &Name, given: usize, expected: &str, usage: &str) -> Diag
     Diagnostic::error(
         "wrong-arity",
         callee.span,
-        format!("`{}` takes {expected}, not {given} argument{plural}", callee.text),
+        format!(
+            "`{}` takes {expected}, not {given} argument{plural}",
+            callee.text
+        ),
     )
     .with_label(format!("called with {given}"))
     .with_hint(format!("it is written {usage}"))
@@ -380,13 +410,20 @@ fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
     if let Some(builtin) = builtins::by_name(name) {
         let expected = (!builtin.arity.contains(&given)).then(|| {
             let (lo, hi) = (builtin.arity.start(), builtin.arity.end());
-            if lo == hi { lo.to_string() } else { format!("{lo} to {hi}") }
+            if lo == hi {
+                lo.to_string()
+            } else {
+                format!("{lo} to {hi}")
+            }
         });
         return Some((expected, builtin.usage.to_owned()));
     }
     let function = library::by_name(name)?;
     let arity = function.function.params.len();
-    Some(((given != arity).then(|| arity.to_string()), signature(function.function)))
+    Some((
+        (given != arity).then(|| arity.to_string()),
+        signature(function.function),
+    ))
 }
 
 /// Reports definitions that need themselves, and chains of calls that are too long.
@@ -403,7 +440,12 @@ fn check_cycles(
         while let Some(&mut (name, ref mut next)) = path.last_mut() {
             let callees = uses.get(name).map_or(&[][..], Vec::as_slice);
             let Some(&(callee, span)) = callees.get(*next) else {
-                let below = callees.iter().filter_map(|(c, _)| depth.get(c)).max().unwrap_or(&0) + 1;
+                let below = callees
+                    .iter()
+                    .filter_map(|(c, _)| depth.get(c))
+                    .max()
+                    .unwrap_or(&0)
+                    + 1;
                 depth.insert(name, below);
                 path.pop();
                 continue;
@@ -417,7 +459,10 @@ fn check_cycles(
             }
         }
     }
-    let too_deep = depth.iter().filter(|(_, d)| **d > MAX_CALL_DEPTH).min_by_key(|(n, d)| (**d, **n));
+    let too_deep = depth
+        .iter()
+        .filter(|(_, d)| **d > MAX_CALL_DEPTH)
+        .min_by_key(|(n, d)| (**d, **n));
     if let Some((name, _)) = too_deep
         && let Some(function) = symbols.functions.get(name)
     {

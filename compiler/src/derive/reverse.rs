@@ -1,12 +1,12 @@
 //! Reverse mode for one real root: adjoints of every node.
 
 use super::NoDerivative;
-use super::rules::takes_second;
 use crate::ir::{Graph, Id, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
 /// Partial derivatives of a real root by each leaf, `None` being an exact zero; `Ok(None)` where the expression
-/// goes through complex numbers, which this mode does not treat.
+/// goes through complex numbers or choices, which this mode does not treat: the adjoint of a branch that is not
+/// taken is 0, and 0 times the infinite or undefined slope of such a branch would be NaN.
 ///
 /// Griewank and Walther, Evaluating Derivatives, 2nd edition, section 3.2.
 ///
@@ -27,15 +27,19 @@ pub fn reverse(
             continue;
         }
         let node = g.node(id).clone();
-        if node.ty == Ty::Complex {
+        if node.ty == Ty::Complex || is_choice(node.op) {
             return Ok(None);
         }
-        let (Op::Apply(prim), Some(adjoint)) = (node.op, adjoints[id.index()]) else { continue };
+        let (Op::Apply(prim), Some(adjoint)) = (node.op, adjoints[id.index()]) else {
+            continue;
+        };
         for (k, &arg) in node.args.iter().enumerate() {
             if !active[arg.index()] || g.ty(arg) == Ty::Bool {
                 continue;
             }
-            let Some(term) = contribution(g, prim, &node.args, id, k, adjoint)? else { continue };
+            let Some(term) = contribution(g, prim, &node.args, id, k, adjoint)? else {
+                continue;
+            };
             adjoints[arg.index()] = Some(match adjoints[arg.index()] {
                 Some(sum) => g.add(sum, term),
                 None => term,
@@ -43,6 +47,10 @@ pub fn reverse(
         }
     }
     Ok(Some(leaves.iter().map(|l| adjoints[l.index()]).collect()))
+}
+
+fn is_choice(op: Op) -> bool {
+    matches!(op, Op::Apply(Prim::Select | Prim::Min | Prim::Max))
 }
 
 /// Marks the live nodes that depend on a leaf.
@@ -98,17 +106,6 @@ fn contribution(
         (_, Prim::Abs, &[x]) => {
             let sign = g.apply(Prim::Sign, &[x]);
             Some(g.mul(sign, adjoint))
-        }
-        (_, Prim::Min | Prim::Max, &[a, b]) => {
-            let second = takes_second(g, prim, a, b);
-            let zero = g.real(0.0);
-            let (yes, no) = if k == 1 { (adjoint, zero) } else { (zero, adjoint) };
-            Some(g.apply(Prim::Select, &[second, yes, no]))
-        }
-        (_, Prim::Select, &[c, ..]) => {
-            let zero = g.real(0.0);
-            let (yes, no) = if k == 1 { (adjoint, zero) } else { (zero, adjoint) };
-            Some(g.apply(Prim::Select, &[c, yes, no]))
         }
         // of a real: itself; im and arg of a real are locally constant
         (_, Prim::Re | Prim::Conj, _) => Some(adjoint),

@@ -11,7 +11,7 @@ use pullback_runtime::{Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, ima
 use super::failure::Failure;
 use super::progress::{Counted, Progress};
 use super::source::Source;
-use super::{Console, Device, Input, Numbers, Output, Settings, Which, overrides};
+use super::{Console, Device, Input, Numbers, Output, Settings, Which, overrides, scale};
 
 /// Arguments of `pullback render`.
 #[derive(Debug, Args)]
@@ -22,7 +22,7 @@ pub(super) struct RenderArguments {
     output: Output,
     /// Width and height of the picture in pixels
     #[arg(long, default_value = "1200x900", value_name = "WxH", value_parser = size)]
-    size: Size,
+    pub(super) size: Size,
     /// Supersamples per axis of a pixel
     #[arg(long, default_value_t = 2, value_name = "N",
           value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
@@ -34,7 +34,7 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "H", value_parser = positive, allow_hyphen_values = true)]
     height: Option<f64>,
     #[command(flatten)]
-    settings: Settings,
+    pub(super) settings: Settings,
     #[command(flatten)]
     device: Device,
     /// The shader stage that computes the pixels
@@ -57,13 +57,15 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     let source = Source::open(&arguments.input, console)?;
     let index = source.picture(arguments.which, console)?;
     let picture = &source.program.pictures()[index];
-    let (params, settings) =
+    let (params, mut settings) =
         overrides::for_picture(&arguments.settings.set, &source.program, picture)?;
+    let view = view(arguments, picture, &settings)?;
+    scale::fill_in(&mut settings, picture, &view, arguments, &params);
     let precision = arguments.numbers.into();
     let scene = source.expect(source.program.scene_module(index, precision), console)?;
     let bytes = scene.pack_settings(&settings);
     let frame = Frame {
-        view: view(arguments, picture, &settings)?,
+        view,
         params: &params,
         settings: &bytes,
         size: arguments.size,
