@@ -251,10 +251,12 @@ fn real_cbrt(x: f32) -> f32 {
     return flip_sign(t, sign_bit(x));
 }
 
-/// a mod b for finite a ≥ 0, b > 0, exactly: long division of the significands in integers, 8 bits a step.
-fn remainder_of_magnitudes(a: f32, b: f32) -> f32 {
+/// a mod b for finite a ≥ 0, b > 0, exactly: long division of the significands in integers, 8 bits a step. With
+/// `complement` b minus that unless it is 0: exact for a ≥ b, else rounded and below b.
+fn remainder_of_magnitudes(a: f32, b: f32, complement: bool) -> f32 {
     if a < b {
-        return a;
+        let below = bitcast<f32>(bitcast<u32>(b) - 1u);
+        return select(a, min(b - a, below), complement && a > 0.0);
     }
     let ua = bitcast<u32>(a);
     let ub = bitcast<u32>(b);
@@ -266,9 +268,10 @@ fn remainder_of_magnitudes(a: f32, b: f32) -> f32 {
         rest = (rest << step) % divisor;
         left -= step;
     }
-    // rest < 2^24 in units of the last place of b; in two steps, for the unit may be subnormal
-    let exponent = i32(ub >> 23u) - 127;
-    return (f32(rest) * 1.1920929e-7) * power_of_two(exponent);
+    rest = select(rest, divisor - rest, complement && rest > 0u);
+    // rest < 2^24 in units of the last place of b, which may be subnormal: scaled by its bits
+    let r = bitcast<i32>(f32(rest)) + ((i32(ub >> 23u) - 150) << 23u);
+    return select(0.0, bitcast<f32>(r), rest > 0u && r > 0);
 }
 
 /// x - y ⌊x / y⌋, exact but for one rounding: the sign of y, |result| < |y|. NaN for y = 0.
@@ -280,11 +283,7 @@ fn real_mod(x: f32, y: f32) -> f32 {
     if is_infinite(y) {
         return select(select(y, x, sign_bit(x) == sign_bit(y)), with_sign(0.0, y), x == 0.0);
     }
-    let r = remainder_of_magnitudes(magnitude(x), b);
-    if r == 0.0 || sign_bit(x) == sign_bit(y) {
-        return with_sign(r, y);
-    }
-    return with_sign(min(b - r, bitcast<f32>(bitcast<u32>(b) - 1u)), y);
+    return with_sign(remainder_of_magnitudes(magnitude(x), b, sign_bit(x) != sign_bit(y)), y);
 }
 
 /// x - ⌊x⌋, in [0, 1): a tiny negative x gives the largest number below 1.

@@ -68,7 +68,7 @@ fn reduce_large(a: f32) -> QuarterTurns {
 /// sin r = r + r^3 P(r²) for |r| ≤ π/4; coefficients.py, sin.
 fn sin_polynomial(r: f32) -> f32 {
     let z = r * r;
-    return r + r * z * (-0.16666667 + z * (0.008333329 + z * (-0.00019839309 + z * 2.7180838e-06)));
+    return r + r * z * (-0.16666655 + z * (0.008332158 + z * -0.00019514958));
 }
 
 /// cos r = 1 - r²/2 + r^4 P(r²) for |r| ≤ π/4; coefficients.py, cos.
@@ -116,7 +116,7 @@ fn real_sinc(x: f32) -> f32 {
     let a = magnitude(x);
     if a < 0.78 {
         let z = a * a;
-        return 1.0 + z * (-0.16666667 + z * (0.008333329 + z * (-0.00019839309 + z * 2.7180838e-06)));
+        return 1.0 + z * (-0.16666655 + z * (0.008332158 + z * -0.00019514958));
     }
     return select(real_sin(a) / a, 0.0, is_infinite(x));
 }
