@@ -137,7 +137,7 @@ fn complex_inverse(z: vec2f) -> vec2f {
     if complex_is_infinite(z) {
         return vec2f(with_sign(0.0, z.x), with_sign(0.0, -z.y));
     }
-    if !(norm > 0.0) || !is_finite(norm) {
+    if norm == 0.0 || !is_finite(norm) {
         return complex_div_special(vec2f(1.0, 0.0), z);
     }
     let q = vec2f(a.x, -a.y) / norm;

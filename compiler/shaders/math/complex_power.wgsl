@@ -59,7 +59,7 @@ fn complex_pow_polar(z: vec2f, w: vec2f) -> vec2f {
         }
         return vec2f(make_nan(z.x), make_nan(z.x));
     }
-    if !is_finite(z.x) || !is_finite(z.y) || !(max(magnitude(w.x), magnitude(w.y)) < 1e30) {
+    if !is_finite(z.x) || !is_finite(z.y) || !is_finite(w.x) || !is_finite(w.y) || max(magnitude(w.x), magnitude(w.y)) > 1e30 {
         return complex_exp(complex_mul(w, complex_log(z)));
     }
     if magnitude(w.y) == 0.0 && magnitude(z.y) == 0.0 && z.x > 0.0 {

@@ -213,7 +213,7 @@ fn real_asinh(x: f32) -> f32 {
 /// arcosh x = log1p(t + √(2t + t²)), t = x - 1; NaN below 1.
 /// Error: 2.0 ulp.
 fn real_acosh(x: f32) -> f32 {
-    if !(x >= 1.0) {
+    if is_nan(x) || x < 1.0 {
         return make_nan(x);
     }
     if x > 1e8 {
@@ -232,7 +232,7 @@ fn real_atanh(x: f32) -> f32 {
         return x + x * z * (0.33333302 + z * (0.20002519 + z * (0.14222763 + z * (0.11823733 + z * (
             0.051357966 + z * 0.17669164)))));
     }
-    if !(a < 1.0) {
+    if bitcast<u32>(a) >= 0x3f800000u { // from 1 on, or NaN
         return select(make_nan(x), make_infinity(x), a == 1.0);
     }
     return flip_sign(0.5 * real_log1p(2.0 * a / (1.0 - a)), sign_bit(x));
@@ -312,6 +312,9 @@ fn real_mod(x: f32, y: f32) -> f32 {
 /// x - ⌊x⌋, in [0, 1): a tiny negative x gives the largest number below 1.
 /// Error: 0.5 ulp.
 fn real_fract(x: f32) -> f32 {
+    if !is_finite(x) {
+        return make_nan(x);
+    }
     return min(x - floor(x), 0.99999994);
 }
 
@@ -319,7 +322,7 @@ fn real_fract(x: f32) -> f32 {
 /// Error: none.
 fn real_round(x: f32) -> f32 {
     let a = magnitude(x);
-    if !(a < 8388608.0) {
+    if bitcast<u32>(a) >= 0x4b000000u { // from 2^23 on, or NaN
         return x;
     }
     let t = floor(a);

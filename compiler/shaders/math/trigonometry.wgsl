@@ -28,16 +28,25 @@ fn reduce_large(a: f32) -> QuarterTurns {
     if biased == 255u {
         return QuarterTurns(make_nan(a), 0u);
     }
-    // 0 and the first bits of 2/π, in words; the first that matters is the one of weight 2^(147 - biased)
-    var words = array<u32, 9>(0u, 0xa2f9836eu, 0x4e441529u, 0xfc2757d1u, 0xf534ddc0u, 0xdb629599u, 0x3c439041u,
-        0xfe5163abu, 0xdebbc561u);
+    // 0 and the first bits of 2/π, in words; the first bit that matters is the one of weight 2^(147 - biased). Four
+    // words from number word = 0 … 4 on are chosen by halving: an indexed array is slow on many adapters.
     let offset = biased - 120u; // biased ≥ 135
-    let word = offset >> 5u;
     let shift = offset & 31u;
-    let w0 = words[word];
-    let w1 = words[word + 1u];
-    let w2 = words[word + 2u];
-    let w3 = words[word + 3u];
+    let four = (offset & 128u) != 0u;
+    let two = (offset & 64u) != 0u;
+    let one = (offset & 32u) != 0u;
+    let v0 = select(0u, 0xf534ddc0u, four);
+    let v1 = select(0xa2f9836eu, 0xdb629599u, four);
+    let v2 = select(0x4e441529u, 0x3c439041u, four);
+    let v3 = select(0xfc2757d1u, 0xfe5163abu, four);
+    let u0 = select(v0, v2, two);
+    let u1 = select(v1, v3, two);
+    let u2 = select(v2, 0xf534ddc0u, two);
+    let u3 = select(v3, 0xdb629599u, two);
+    let w0 = select(u0, u1, one);
+    let w1 = select(u1, u2, one);
+    let w2 = select(u2, u3, one);
+    let w3 = select(u3, select(0xf534ddc0u, 0x3c439041u, two), one);
     let down = 31u - shift; // >> (32 - shift) in two steps, for shift 0
     let a0 = (w0 << shift) | ((w1 >> 1u) >> down);
     let a1 = (w1 << shift) | ((w2 >> 1u) >> down);
@@ -174,7 +183,7 @@ fn asin_polynomial(t: f32, z: f32) -> f32 {
 /// Error: 2.5 ulp.
 fn real_asin(x: f32) -> f32 {
     let a = magnitude(x);
-    if !(a <= 1.0) {
+    if bitcast<u32>(a) > 0x3f800000u { // beyond 1, or NaN
         return make_nan(x);
     }
     let steep = a > 0.5;
@@ -187,7 +196,7 @@ fn real_asin(x: f32) -> f32 {
 /// Error: 1.4 ulp.
 fn real_acos(x: f32) -> f32 {
     let a = magnitude(x);
-    if !(a <= 1.0) {
+    if bitcast<u32>(a) > 0x3f800000u { // beyond 1, or NaN
         return make_nan(x);
     }
     let steep = a > 0.5;
