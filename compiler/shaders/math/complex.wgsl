@@ -98,7 +98,7 @@ fn complex_exponent(z: vec2f) -> i32 {
 fn complex_div(z: vec2f, w: vec2f) -> vec2f {
     // z only as far as it must, lest a small component underflow
     let size = complex_exponent(z);
-    let ez = select(select(0, 8, size > 119), -64, size < -60);
+    let ez = select(select(0, 8, size > 119), -64, size < -30);
     let ew = complex_exponent(w);
     let a = z * power_of_two(-ez);
     let b = w * power_of_two(-ew);

@@ -91,7 +91,7 @@ fn real_gamma(x: f32) -> f32 {
         return r / gamma_of_large(y);
     }
     // Γ(y) overflows, and its reciprocal flushes, before the result underflows
-    return r / ((y - 1.0) * (y - 2.0) * (y - 3.0)) / gamma_of_large(y - 3.0);
+    return opaque(r / ((y - 1.0) * (y - 2.0) * (y - 3.0)), hidden_zero(x)) / gamma_of_large(y - 3.0);
 }
 
 /// log |Γ(x)|: ∞ at the poles. Relative accuracy near its zeros at 1 and 2; at those left of 0 absolute.
