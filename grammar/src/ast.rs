@@ -103,6 +103,20 @@ pub enum Item {
     Formula(Formula),
 }
 
+impl Item {
+    /// The whole statement.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Function(item) => item.span,
+            Self::Constant(item) => item.span,
+            Self::Param(item) => item.span,
+            Self::Show(item) => item.span,
+            Self::Formula(item) => item.span,
+        }
+    }
+}
+
 /// `name(params) = body`
 #[derive(Clone, Debug)]
 pub struct Function {

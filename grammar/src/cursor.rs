@@ -15,8 +15,8 @@ pub(crate) struct Parser<'a> {
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// Bars open in the innermost bracket: whether the next `|` closes.
     pub(crate) bars: u32,
-    /// Whether the statement is a bare expression.
-    pub(crate) is_formula: bool,
+    /// What is being read.
+    pub(crate) statement: StatementKind,
     /// Whether an argument may be the bare name of a function.
     pub(crate) takes_functions: bool,
     /// Parentheses and braces open, so that a wrong closing one is left to whom it belongs.
@@ -55,7 +55,7 @@ impl<'a> Parser<'a> {
             exprs: Exprs::default(),
             diagnostics: Vec::new(),
             bars: 0,
-            is_formula: false,
+            statement: StatementKind::Formula,
             takes_functions: false,
             open_parens: 0,
             open_braces: 0,
@@ -75,7 +75,7 @@ impl<'a> Parser<'a> {
         self.at = statement.start;
         self.start = statement.start;
         self.end = statement.end.min(self.tokens.len());
-        self.is_formula = statement.kind == StatementKind::Formula;
+        self.statement = statement.kind;
         self.depth = 0;
         self.bars = 0;
         self.open_parens = 0;
@@ -277,6 +277,11 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// A problem at the token here has been reported.
+    pub(crate) fn mark_complained(&mut self) {
+        self.complained_at = Some(self.at);
+    }
+
     /// Goes to the next comma or closing bracket of the list that is being read.
     pub(crate) fn skip_to_separator(&mut self) {
         let mut depth = 0_usize;
@@ -316,6 +321,9 @@ impl<'a> Parser<'a> {
         }
         if !self.at(opened.closing()) && !self.is_foreign_closing(opened) {
             self.complain_unexpected(Some(opened));
+            if self.eat(TokenKind::Semicolon) {
+                return true;
+            }
             self.skip_to_separator();
             if self.eat(TokenKind::Comma) {
                 return true;

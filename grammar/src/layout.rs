@@ -310,10 +310,18 @@ fn definition(tokens: &[Token], at: usize) -> Option<StatementKind> {
     None
 }
 
+/// Whether the `=` at `at` belongs to `=<` or `=>`.
+fn is_reversed_comparison(tokens: &[Token], at: usize) -> bool {
+    let (Some(equals), Some(next)) = (tokens.get(at), tokens.get(at + 1)) else {
+        return false;
+    };
+    matches!(next.kind, TokenKind::Less | TokenKind::Greater) && next.span.start == equals.span.end
+}
+
 /// Whether `=` or `:=` stands at `at`.
 fn equals_at(tokens: &[Token], at: usize) -> bool {
     match kind(tokens, at) {
-        TokenKind::Equals => true,
+        TokenKind::Equals => !is_reversed_comparison(tokens, at),
         TokenKind::Colon => kind(tokens, at + 1) == TokenKind::Equals,
         _ => false,
     }

@@ -11,12 +11,18 @@ pub mod token;
 mod build;
 mod complaint;
 mod cursor;
+mod format;
 mod layout;
 mod parse;
 mod parser;
+mod printer;
+mod render;
 mod scope;
 mod stray;
 
 pub use diagnostic::{Diagnostic, Severity};
+pub use format::format;
 pub use parse::{Parsed, parse, parse_bytes};
+pub use printer::{print, print_expr, print_item};
+pub use render::render;
 pub use span::Span;

@@ -30,20 +30,26 @@ impl Parsed {
 /// Reads a file. `is_function` says which names are builtin functions; those that the file defines are found here.
 ///
 /// Never fails: what cannot be read is left out of the tree and reported. Time and memory are linear in the length.
+///
+/// ```
+/// let parsed = pullback_grammar::parse("2x sin(x) + (y", &|name| name == "sin");
+/// assert_eq!(parsed.diagnostics[0].code, "missing-closing");
+/// assert_eq!(pullback_grammar::print(&parsed.file), "2 x sin(x) + y\n");
+/// ```
 #[must_use]
 pub fn parse(text: &str, is_function: &dyn Fn(&str) -> bool) -> Parsed {
     if text.len() > MAX_SOURCE_BYTES {
         return too_large(text.len());
     }
     let (tokens, mut diagnostics) = tokenize(text);
-    if tokens.is_empty() && diagnostics.is_empty() {
+    let layout = layout(&tokens);
+    if layout.statements.is_empty() && diagnostics.is_empty() {
         diagnostics.push(
             Diagnostic::error("empty-source", Span::default(), "there is no formula")
                 .with_label("nothing but blanks and comments")
                 .with_hint("write a formula, such as `x^2 + y^2 - 1`"),
         );
     }
-    let layout = layout(&tokens);
     let mut parser = Parser::new(text, &tokens, &layout, Scope::new(is_function));
     parser.collect_definitions();
     let items = parser.file();

@@ -1,5 +1,6 @@
 //! Characters that are no part of the language: what they are called and what was probably meant.
 
+use crate::token::TokenKind;
 use crate::{Diagnostic, Span};
 
 /// The complaint about a character that begins no token.
@@ -109,6 +110,8 @@ fn hint(c: char) -> Option<String> {
         'ⁿ' => "write `^n`",
         'ⁱ' => "write `^i`",
         '⁺' | '⁻' | '⁼' | '⁽' | '⁾' => "write `^` and the exponent",
+        '≡' | '≟' => "write `==` to compare",
+        '≈' => "write `|a - b| < 1e-3`, or how near you want it",
         '₀'..='₉' => "a subscript belongs directly behind a name, as in `x₀`",
         '½' => "write `1/2`",
         '⅓' => "write `1/3`",
@@ -137,6 +140,31 @@ fn hint(c: char) -> Option<String> {
     Some(advice.to_owned())
 }
 
+/// What a stray sign is read as, so that one complaint about it is enough.
+pub(crate) fn stands_for(c: char) -> TokenKind {
+    match twin(c).unwrap_or(c) {
+        '+' => TokenKind::Plus,
+        '-' => TokenKind::Minus,
+        '*' => TokenKind::Star,
+        '/' => TokenKind::Slash,
+        '^' => TokenKind::Caret,
+        '=' => TokenKind::Equals,
+        '<' => TokenKind::Less,
+        '>' => TokenKind::Greater,
+        '|' => TokenKind::Bar,
+        ',' => TokenKind::Comma,
+        ';' => TokenKind::Semicolon,
+        ':' => TokenKind::Colon,
+        '\'' => TokenKind::Prime,
+        '(' | '[' => TokenKind::LParen,
+        ')' | ']' => TokenKind::RParen,
+        '{' => TokenKind::LBrace,
+        '}' => TokenKind::RBrace,
+        '&' => TokenKind::And,
+        _ => TokenKind::Error,
+    }
+}
+
 /// The character of the language that looks or means the same.
 fn twin(c: char) -> Option<char> {
     Some(match c {
@@ -160,7 +188,6 @@ fn twin(c: char) -> Option<char> {
         '‚' | '、' => ',',
         '。' => '.',
         '∶' | 'ː' => ':',
-        '≡' | '≟' | '≈' => return None,
         'ϕ' => 'φ',
         'ϖ' => 'π',
         'µ' => 'μ',

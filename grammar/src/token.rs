@@ -206,6 +206,8 @@ pub fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
     let mut lexer = TokenKind::lexer(text);
     let mut starts_line = true;
+    // A square bracket is read as a round one; the complaint about the opening one serves for both.
+    let mut squares = 0_usize;
     while let Some(result) = lexer.next() {
         let mut kind = result.unwrap_or(TokenKind::Error);
         match kind {
@@ -225,6 +227,11 @@ pub fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
                             .with_label("opened here")
                             .with_hint("close it with `*/`"),
                     );
+                    tokens.push(Token {
+                        kind: TokenKind::Error,
+                        span: opening,
+                        starts_line: starts_line || lexer.slice().contains(['\n', '\r']),
+                    });
                 }
                 starts_line |= lexer.slice().contains(['\n', '\r']);
                 continue;
@@ -269,7 +276,13 @@ pub fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
                         tokens.pop();
                     }
                 }
-                diagnostics.push(stray::complaint(culprit, span(place)));
+                if culprit == ']' && squares > 0 {
+                    squares -= 1;
+                } else {
+                    diagnostics.push(stray::complaint(culprit, span(place)));
+                }
+                squares += usize::from(culprit == '[');
+                kind = stray::stands_for(culprit);
                 tokens.push(Token {
                     kind,
                     span: span(start..lexer.span().end),
@@ -288,6 +301,25 @@ pub fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
         starts_line = false;
     }
     (tokens, diagnostics)
+}
+
+/// The places of the comments of a text, in order.
+#[must_use]
+pub fn comments(text: &str) -> Vec<Span> {
+    let mut found = Vec::new();
+    let mut lexer = TokenKind::lexer(text);
+    while let Some(result) = lexer.next() {
+        match result {
+            Ok(TokenKind::LineComment) => found.push(span(lexer.span())),
+            Ok(TokenKind::BlockComment) => {
+                let rest = lexer.remainder();
+                lexer.bump(rest.find("*/").map_or(rest.len(), |end| end + 2));
+                found.push(span(lexer.span()));
+            }
+            _ => {}
+        }
+    }
+    found
 }
 
 /// Whether `c` can stand inside a name.

@@ -1,6 +1,7 @@
 //! Brackets, bars and braces.
 
 use crate::cursor::{Opened, Parser};
+use crate::layout::StatementKind;
 use crate::token::TokenKind;
 use crate::{Diagnostic, Span};
 
@@ -96,8 +97,17 @@ impl Parser<'_> {
     }
 
     #[cold]
-    pub(crate) fn complain_missing_colon(&mut self, is_else: bool) {
+    pub(crate) fn complain_missing_colon(&mut self, is_else: bool, opening: Span) {
         if !is_else && self.at(TokenKind::End) {
+            return;
+        }
+        if let Some(place) = self.retract_missing_operator(opening) {
+            self.diagnostics.push(
+                Diagnostic::error("missing-colon", place, "missing `:`")
+                    .with_label("expected `:` between these")
+                    .with_hint("write `{ condition: value, else: value }`"),
+            );
+            self.mark_complained();
             return;
         }
         let hint = if is_else {
@@ -159,6 +169,11 @@ impl Parser<'_> {
                 "unexpected-token",
                 "`:` outside of a list of cases".to_owned(),
                 Some("write `{ condition: value, else: value }`"),
+            ),
+            TokenKind::Name if defines && self.statement == StatementKind::Show => (
+                "missing-braces",
+                format!("setting {quoted} outside of braces"),
+                Some("write `show scene(f) { name = value }`"),
             ),
             TokenKind::Name if defines && opened.is_none() => (
                 "missing-separator",

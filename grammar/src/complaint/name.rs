@@ -3,7 +3,7 @@
 use crate::Diagnostic;
 use crate::Span;
 use crate::ast::Name;
-use crate::cursor::{Node, Parser};
+use crate::cursor::Parser;
 use crate::token::TokenKind;
 
 impl Parser<'_> {
@@ -173,8 +173,8 @@ impl Parser<'_> {
                 .with_label("expected `name = value`")
                 .with_hint("write `… where a = value, b = value`"),
         );
-        if self.eat(TokenKind::Name) {
-            self.read_on();
+        if self.eat(TokenKind::Name) && !matches!(self.kind(), TokenKind::End | TokenKind::Comma) {
+            self.disjunction();
         }
         None
     }
@@ -295,6 +295,16 @@ impl Parser<'_> {
 
     #[cold]
     fn complain_conditional(&mut self, code: &'static str, word: &str, opening: Span) {
+        if let Some(place) = self.retract_missing_operator(opening) {
+            self.diagnostics.push(
+                Diagnostic::error(code, place, format!("missing `{word}`"))
+                    .with_label(format!("expected `{word}` between these"))
+                    .with_related(opening, "the conditional begins here")
+                    .with_hint("write `if c then a else b`"),
+            );
+            self.mark_complained();
+            return;
+        }
         let message = format!("missing `{word}` before {}", self.describe());
         self.complain(
             Diagnostic::error(code, self.span(), message)
@@ -302,10 +312,5 @@ impl Parser<'_> {
                 .with_related(opening, "the conditional begins here")
                 .with_hint("write `if c then a else b`"),
         );
-    }
-
-    /// Reads what follows only to find its problems.
-    pub(crate) fn read_on(&mut self) {
-        let _: Node = self.expr();
     }
 }

@@ -26,6 +26,7 @@ impl Parser<'_> {
             TokenKind::Bang => {
                 self.complain_leading_bang();
                 let operator = self.bump();
+                while self.eat(TokenKind::Bang) {}
                 let arg = self.nested(Self::prefix);
                 self.unary(UnaryOp::Not, arg, operator)
             }

@@ -50,6 +50,17 @@ impl Parser<'_> {
         );
     }
 
+    /// Takes back the last complaint if it is a missing operator behind `start`, and returns its place: a word or
+    /// sign that is missing there explains it better.
+    pub(crate) fn retract_missing_operator(&mut self, start: Span) -> Option<Span> {
+        let last = self.diagnostics.last()?;
+        let is_it = last.code == "missing-operator" && last.span.start >= start.start;
+        is_it
+            .then(|| self.diagnostics.pop())
+            .flatten()
+            .map(|last| last.span)
+    }
+
     /// Reads `=` between operands as a comparison; `=<` and `=>` as what they were meant to be.
     #[cold]
     pub(crate) fn complain_equals(&mut self, lhs: Node) -> CompareOp {

@@ -2,6 +2,7 @@
 
 use crate::ast::{MAX_NESTING, Name};
 use crate::cursor::{Node, Parser};
+use crate::layout::StatementKind;
 use crate::token::TokenKind;
 use crate::{Diagnostic, Span};
 
@@ -42,7 +43,7 @@ impl Parser<'_> {
                 self.bump();
             }
             if !self.at(TokenKind::End) {
-                self.read_on();
+                self.expr();
             }
         }
     }
@@ -159,7 +160,7 @@ impl Parser<'_> {
 
     /// Whether `=` behind `lhs` makes an equation of the whole statement.
     pub(crate) fn is_bare_equation(&self, lhs: Node) -> bool {
-        self.is_formula && lhs.span.start == self.first_span().start
+        self.statement == StatementKind::Formula && lhs.span.start == self.first_span().start
     }
 
     /// Gives the statement up; said once for each.

@@ -86,13 +86,14 @@ impl Parser<'_> {
 
     /// `arm = ( expr | "else" ) ":" expr`
     fn arm(&mut self) -> (Option<ExprId>, ExprId) {
+        let start = self.span();
         let cond = if self.eat(TokenKind::Else) {
             None
         } else {
             Some(self.expr().id)
         };
         if !self.eat(TokenKind::Colon) {
-            self.complain_missing_colon(cond.is_none());
+            self.complain_missing_colon(cond.is_none(), start);
             return (cond, self.missing_node().id);
         }
         (cond, self.expr().id)

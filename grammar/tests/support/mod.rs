@@ -2,6 +2,8 @@
 
 #![allow(dead_code)]
 
+pub mod fixture;
+
 use pullback_grammar::ast::{Expr, ExprId, File, Item};
 use pullback_grammar::{Parsed, Span, parse};
 

@@ -1,0 +1,384 @@
+//! Syntax tree to text.
+//!
+//! The text reads back as the same tree, spans aside, and has no brackets that it does not need.
+
+use crate::ast::{
+    BinaryOp, CompareOp, Expr, ExprId, Exprs, File, Function, Item, Param, Show, UnaryOp,
+};
+
+/// How tightly an expression holds together, loosest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Level {
+    Where,
+    If,
+    Or,
+    And,
+    Not,
+    Compare,
+    Sum,
+    Product,
+    Prefix,
+    Power,
+    Postfix,
+    Atom,
+}
+
+/// What is still to be written.
+enum Work<'a> {
+    Text(&'a str),
+    Number(f64),
+    /// An expression, in brackets if it is looser than the level; whether `|` would close here.
+    Expr(ExprId, Level, bool),
+    /// The factor behind a product without a sign.
+    Factor(ExprId, bool),
+}
+
+/// The canonical text of a file, one statement a line. Comments are no part of the tree and are not kept.
+///
+/// A tree without [`Expr::Error`] reads back equal; an error is written as `?`.
+#[must_use]
+pub fn print(file: &File) -> String {
+    let mut out = String::new();
+    for item in &file.items {
+        let line = print_item(&file.exprs, item);
+        // A line that begins with `-` would go on with the line before.
+        if line.starts_with('-') && out.pop().is_some() {
+            out.push_str(";\n");
+        }
+        out.push_str(&line);
+        out.push('\n');
+    }
+    out
+}
+
+/// The canonical text of one statement.
+#[must_use]
+pub fn print_item(exprs: &Exprs, item: &Item) -> String {
+    let mut out = String::new();
+    match item {
+        Item::Function(item) => function(&mut out, exprs, item),
+        Item::Constant(item) => {
+            out.push_str(&item.name.text);
+            out.push_str(" = ");
+            write(&mut out, exprs, item.value, Level::Where);
+        }
+        Item::Param(item) => param(&mut out, exprs, item),
+        Item::Show(item) => show(&mut out, exprs, item),
+        Item::Formula(item) => write(&mut out, exprs, item.body, Level::Where),
+    }
+    out
+}
+
+/// The canonical text of one expression.
+#[must_use]
+pub fn print_expr(exprs: &Exprs, id: ExprId) -> String {
+    let mut out = String::new();
+    write(&mut out, exprs, id, Level::Where);
+    out
+}
+
+/// The shortest text that reads back as this number; a negative number stands in brackets.
+fn number(out: &mut String, value: f64) {
+    let size = value.abs();
+    let is_negative = value.is_sign_negative() && !value.is_nan();
+    if is_negative {
+        out.push_str("(-");
+    }
+    if value.is_nan() {
+        out.push_str("nan");
+    } else if size.is_infinite() {
+        out.push_str("inf");
+    } else if size == 0.0 || (1e-5..1e16).contains(&size) {
+        out.push_str(&size.to_string());
+    } else {
+        out.push_str(&format!("{size:e}"));
+    }
+    if is_negative {
+        out.push(')');
+    }
+}
+
+fn function(out: &mut String, exprs: &Exprs, item: &Function) {
+    out.push_str(&item.name.text);
+    out.push('(');
+    for (index, param) in item.params.iter().enumerate() {
+        if index > 0 {
+            out.push_str(", ");
+        }
+        out.push_str(&param.name.text);
+        if let Some(ty) = &param.ty {
+            out.push_str(": ");
+            out.push_str(&ty.text);
+        }
+    }
+    out.push_str(") = ");
+    write(out, exprs, item.body, Level::Where);
+}
+
+fn param(out: &mut String, exprs: &Exprs, item: &Param) {
+    out.push_str("param ");
+    out.push_str(&item.name.text);
+    out.push_str(" = ");
+    write(out, exprs, item.default, Level::If);
+    if let Some((lower, upper)) = item.range {
+        out.push_str(" in ");
+        write(out, exprs, lower, Level::If);
+        out.push_str("..");
+        write(out, exprs, upper, Level::If);
+    }
+}
+
+fn show(out: &mut String, exprs: &Exprs, item: &Show) {
+    out.push_str("show ");
+    out.push_str(&item.scene.text);
+    out.push('(');
+    for (index, &arg) in item.args.iter().enumerate() {
+        if index > 0 {
+            out.push_str(", ");
+        }
+        write(out, exprs, arg, Level::If);
+    }
+    out.push(')');
+    for (index, setting) in item.settings.iter().enumerate() {
+        out.push_str(if index == 0 { " { " } else { ", " });
+        out.push_str(&setting.name.text);
+        out.push_str(" = ");
+        write(out, exprs, setting.value, Level::If);
+        if let Some(upper) = setting.upper {
+            out.push_str("..");
+            write(out, exprs, upper, Level::If);
+        }
+    }
+    if !item.settings.is_empty() {
+        out.push_str(" }");
+    }
+}
+
+/// Writes an expression with a stack of its own, so that trees of any shape can be written.
+fn write(out: &mut String, exprs: &Exprs, id: ExprId, level: Level) {
+    let mut stack = vec![Work::Expr(id, level, false)];
+    while let Some(work) = stack.pop() {
+        match work {
+            Work::Text(text) => out.push_str(text),
+            Work::Number(value) => number(out, value),
+            Work::Expr(id, least, in_bars) => {
+                if level_of(&exprs[id]) < least {
+                    bracketed(out, &mut stack, id);
+                } else {
+                    parts(&mut stack, exprs, id, in_bars);
+                }
+            }
+            Work::Factor(id, in_bars) => {
+                let stands_alone = match &exprs[leftmost(exprs, id)] {
+                    Expr::Number(_)
+                    | Expr::Imaginary(_)
+                    | Expr::If { .. }
+                    | Expr::Piecewise { .. } => false,
+                    Expr::Unary {
+                        op: UnaryOp::Abs, ..
+                    } => !in_bars,
+                    _ => true,
+                };
+                if stands_alone && level_of(&exprs[id]) >= Level::Power {
+                    parts(&mut stack, exprs, id, in_bars);
+                } else {
+                    bracketed(out, &mut stack, id);
+                }
+            }
+        }
+    }
+}
+
+fn bracketed(out: &mut String, stack: &mut Vec<Work<'_>>, id: ExprId) {
+    out.push('(');
+    stack.push(Work::Text(")"));
+    stack.push(Work::Expr(id, Level::Where, false));
+}
+
+/// The operand whose text a power or postfix form begins with.
+fn leftmost(exprs: &Exprs, mut id: ExprId) -> ExprId {
+    loop {
+        id = match exprs[id] {
+            Expr::Binary {
+                op: BinaryOp::Pow,
+                lhs: next,
+                ..
+            }
+            | Expr::Unary {
+                op: UnaryOp::Factorial,
+                arg: next,
+            }
+            | Expr::Member { base: next, .. }
+                if level_of(&exprs[next]) >= Level::Postfix =>
+            {
+                next
+            }
+            _ => return id,
+        }
+    }
+}
+
+fn level_of(expr: &Expr) -> Level {
+    match expr {
+        Expr::Where { .. } => Level::Where,
+        Expr::If { .. } => Level::If,
+        Expr::Compare { .. } => Level::Compare,
+        Expr::Unary { op, .. } => match op {
+            UnaryOp::Not => Level::Not,
+            UnaryOp::Neg => Level::Prefix,
+            UnaryOp::Sqrt => Level::Power,
+            UnaryOp::Factorial => Level::Postfix,
+            UnaryOp::Abs => Level::Atom,
+        },
+        Expr::Binary { op, .. } => match op {
+            BinaryOp::Or => Level::Or,
+            BinaryOp::And => Level::And,
+            BinaryOp::Add | BinaryOp::Sub => Level::Sum,
+            BinaryOp::Mul | BinaryOp::ImplicitMul | BinaryOp::Div => Level::Product,
+            BinaryOp::Pow => Level::Power,
+        },
+        Expr::Member { .. } => Level::Postfix,
+        Expr::Error
+        | Expr::Number(_)
+        | Expr::Imaginary(_)
+        | Expr::Name(_)
+        | Expr::Call { .. }
+        | Expr::Vector(_)
+        | Expr::Piecewise { .. } => Level::Atom,
+    }
+}
+
+/// Puts the parts of an expression on the stack, the first on top.
+fn parts<'a>(stack: &mut Vec<Work<'a>>, exprs: &'a Exprs, id: ExprId, in_bars: bool) {
+    use Work::{Number, Text};
+    let base = stack.len();
+    let at = |id: ExprId, level: Level| Work::Expr(id, level, in_bars);
+    match &exprs[id] {
+        Expr::Error => stack.push(Text("?")),
+        Expr::Number(value) => stack.push(Number(*value)),
+        Expr::Imaginary(value) => stack.extend([Number(*value), Text("i")]),
+        Expr::Name(name) => stack.push(Text(&name.text)),
+        Expr::Unary { op, arg } => match op {
+            UnaryOp::Neg => stack.extend([Text("-"), at(*arg, Level::Prefix)]),
+            UnaryOp::Not => stack.extend([Text("not "), at(*arg, Level::Not)]),
+            UnaryOp::Sqrt => stack.extend([Text("√"), at(*arg, Level::Prefix)]),
+            UnaryOp::Factorial => stack.extend([at(*arg, Level::Postfix), Text("!")]),
+            UnaryOp::Abs => {
+                stack.extend([Text("|"), Work::Expr(*arg, Level::If, true), Text("|")]);
+            }
+        },
+        Expr::Binary { op, lhs, rhs } => {
+            let (sign, left, right) = match op {
+                BinaryOp::Or => (" or ", Level::Or, Level::And),
+                BinaryOp::And => (" and ", Level::And, Level::Not),
+                BinaryOp::Add => (" + ", Level::Sum, Level::Product),
+                BinaryOp::Sub => (" - ", Level::Sum, Level::Product),
+                BinaryOp::Mul => (" * ", Level::Product, Level::Prefix),
+                BinaryOp::Div => (" / ", Level::Product, Level::Prefix),
+                BinaryOp::ImplicitMul => (" ", Level::Product, Level::Power),
+                BinaryOp::Pow => ("^", Level::Postfix, Level::Prefix),
+            };
+            let right = if *op == BinaryOp::ImplicitMul {
+                Work::Factor(*rhs, in_bars)
+            } else {
+                at(*rhs, right)
+            };
+            stack.extend([at(*lhs, left), Text(sign), right]);
+        }
+        Expr::Compare { first, rest } => {
+            stack.push(at(*first, Level::Sum));
+            for &(op, operand) in rest {
+                stack.extend([Text(comparison(op)), at(operand, Level::Sum)]);
+            }
+        }
+        Expr::Call {
+            callee,
+            primes,
+            args,
+        } => {
+            stack.push(Text(&callee.text));
+            stack.extend((0..*primes).map(|_| Text("'")));
+            list(stack, args);
+        }
+        Expr::Member { base, field } => {
+            // `2.x` would read well, but look like a number.
+            let is_number = matches!(exprs[*base], Expr::Number(_) | Expr::Imaginary(_));
+            if is_number {
+                stack.extend([Text("("), at(*base, Level::Where), Text(")")]);
+            } else {
+                stack.push(at(*base, Level::Postfix));
+            }
+            stack.extend([Text("."), Text(&field.text)]);
+        }
+        Expr::Vector(items) => list(stack, items),
+        Expr::If {
+            cond,
+            then,
+            otherwise,
+        } => stack.extend([
+            Text("if "),
+            at(*cond, Level::If),
+            Text(" then "),
+            at(*then, Level::If),
+            Text(" else "),
+            at(*otherwise, Level::If),
+        ]),
+        Expr::Piecewise { arms, otherwise } => {
+            let inside = |id| Work::Expr(id, Level::If, false);
+            stack.push(Text("{ "));
+            for (index, &(cond, value)) in arms.iter().enumerate() {
+                if index > 0 {
+                    stack.push(Text(", "));
+                }
+                stack.extend([inside(cond), Text(": "), inside(value)]);
+            }
+            if let Some(value) = otherwise {
+                let word = if arms.is_empty() {
+                    "else: "
+                } else {
+                    ", else: "
+                };
+                stack.extend([Text(word), inside(*value)]);
+            }
+            stack.push(Text(" }"));
+        }
+        Expr::Where { body, locals } => {
+            stack.push(at(*body, Level::Where));
+            for (index, (name, value)) in locals.iter().enumerate() {
+                let word = if index == 0 { " where " } else { ", " };
+                stack.extend([
+                    Text(word),
+                    Text(&name.text),
+                    Text(" = "),
+                    at(*value, Level::If),
+                ]);
+            }
+        }
+    }
+    if let Some(added) = stack.get_mut(base..) {
+        added.reverse();
+    }
+}
+
+/// `(a, b)`
+fn list(stack: &mut Vec<Work<'_>>, items: &[ExprId]) {
+    stack.push(Work::Text("("));
+    for (index, &item) in items.iter().enumerate() {
+        if index > 0 {
+            stack.push(Work::Text(", "));
+        }
+        stack.push(Work::Expr(item, Level::If, false));
+    }
+    stack.push(Work::Text(")"));
+}
+
+fn comparison(op: CompareOp) -> &'static str {
+    match op {
+        CompareOp::Less => " < ",
+        CompareOp::LessEqual => " <= ",
+        CompareOp::Greater => " > ",
+        CompareOp::GreaterEqual => " >= ",
+        CompareOp::Equal => " == ",
+        CompareOp::NotEqual => " != ",
+    }
+}
