@@ -551,10 +551,10 @@ impl<'a> Checker<'a> {
                 return None;
             }
         };
-        let out = match numbers.as_slice() {
-            &[x] if size != 2 => [x; 3],
-            &[x, y] if size == 2 => [x, y, 0.0],
-            &[x, y, z] if size == 3 => [x, y, z],
+        let out = match *numbers.as_slice() {
+            [x] if size != 2 => [x; 3],
+            [x, y] if size == 2 => [x, y, 0.0],
+            [x, y, z] if size == 3 => [x, y, z],
             _ => {
                 self.diagnostics.push(Diagnostic::error(
                     "type-mismatch",

@@ -110,6 +110,8 @@ impl Parser<'_> {
             TokenKind::LParen | TokenKind::Root => true,
             TokenKind::Name => self.ahead(1) != TokenKind::Equals,
             TokenKind::Bar => self.bars == 0,
+            // `if c { a } else { b }`: the missing `then` is the one thing to complain about.
+            TokenKind::LBrace if self.in_condition => false,
             TokenKind::Number
             | TokenKind::Imaginary
             | TokenKind::If

@@ -17,6 +17,8 @@ pub(crate) struct Parser<'a> {
     pub(crate) bars: u32,
     /// What is being read.
     pub(crate) statement: StatementKind,
+    /// Whether the condition of an `if` is being read, outside of brackets in it.
+    pub(crate) in_condition: bool,
     /// Whether an argument may be the bare name of a function.
     pub(crate) takes_functions: bool,
     /// Parentheses and braces open, so that a wrong closing one is left to whom it belongs.
@@ -56,6 +58,7 @@ impl<'a> Parser<'a> {
             diagnostics: Vec::new(),
             bars: 0,
             statement: StatementKind::Formula,
+            in_condition: false,
             takes_functions: false,
             open_parens: 0,
             open_braces: 0,
@@ -81,6 +84,7 @@ impl<'a> Parser<'a> {
         self.open_parens = 0;
         self.open_braces = 0;
         self.takes_functions = false;
+        self.in_condition = false;
         self.complained_at = None;
         self.abandoned = false;
     }
@@ -310,6 +314,7 @@ impl<'a> Parser<'a> {
             kind,
             bars: std::mem::take(&mut self.bars),
             takes_functions: std::mem::take(&mut self.takes_functions),
+            in_condition: std::mem::take(&mut self.in_condition),
             span: self.bump(),
         }
     }
@@ -342,6 +347,7 @@ impl<'a> Parser<'a> {
         }
         self.bars = opened.bars;
         self.takes_functions = opened.takes_functions;
+        self.in_condition = opened.in_condition;
         if self.eat(opened.closing()) {
             return;
         }
@@ -370,6 +376,7 @@ pub(crate) struct Opened {
     pub(crate) span: Span,
     bars: u32,
     takes_functions: bool,
+    in_condition: bool,
 }
 
 impl Opened {

@@ -19,6 +19,7 @@ use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use pullback_compiler::lower::Precision;
 use pullback_runtime::AdapterChoice;
 
 pub(crate) use console::Console;
@@ -75,6 +76,14 @@ struct Input {
     input: OsString,
 }
 
+/// Which of the program's pictures, whose formula it is about.
+#[derive(Clone, Copy, Debug, Args)]
+struct Which {
+    /// Which `show` of the program is meant, from 1
+    #[arg(long, value_name = "N")]
+    show: Option<usize>,
+}
+
 /// Values for the names of a program.
 #[derive(Debug, Args)]
 struct Settings {
@@ -102,11 +111,29 @@ struct Output {
     output: Option<PathBuf>,
 }
 
-/// How numbers are computed on the device.
+/// How numbers are computed in shaders.
+#[derive(Clone, Copy, Debug, Args)]
+struct Numbers {
+    /// How numbers are computed in the shader
+    #[arg(long, value_enum, default_value_t = Tier::Accurate)]
+    precision: Tier,
+}
+
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Precision {
+enum Tier {
     /// Single precision with our own functions, of declared error
     Accurate,
+    /// Single precision with the functions of the graphics driver, of any error
+    Fast,
+}
+
+impl From<Numbers> for Precision {
+    fn from(numbers: Numbers) -> Self {
+        match numbers.precision {
+            Tier::Accurate => Self::Accurate,
+            Tier::Fast => Self::Fast,
+        }
+    }
 }
 
 impl Arguments {

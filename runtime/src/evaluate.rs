@@ -196,6 +196,8 @@ impl GpuEvaluator {
             zero: 0,
             time: surroundings.time as f32,
             pixel: surroundings.pixel as f32,
+            columns: u32::try_from(self.inputs.len()).unwrap_or(u32::MAX),
+            results: u32::try_from(self.outputs.len()).unwrap_or(u32::MAX),
         };
         let groups = (count as u64).div_ceil(WORKGROUP);
         let widest = u64::from(gpu.device().limits().max_compute_workgroups_per_dimension);
@@ -247,11 +249,12 @@ mod tests {
     use super::*;
     use crate::AdapterChoice;
     use pullback_compiler::What;
+    use pullback_compiler::lower::Precision;
 
     fn evaluator(formula: &str) -> Option<GpuEvaluator> {
         let gpu = Gpu::open(&AdapterChoice::Software).ok()?;
         let program = pullback_compiler::compile(formula).program.unwrap();
-        let Ok(module) = program.eval_module(What::Value) else {
+        let Ok(module) = program.eval_module(0, What::Value, Precision::Accurate) else {
             panic!("{formula} does not compile");
         };
         Some(GpuEvaluator::new(&gpu, &module).unwrap())

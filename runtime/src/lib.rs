@@ -7,9 +7,9 @@ pub mod device;
 pub mod error;
 pub mod evaluate;
 pub mod image_file;
+pub mod probe;
 pub mod render;
 pub mod rows;
-pub mod settings;
 
 mod buffers;
 mod tiles;

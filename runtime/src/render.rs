@@ -56,7 +56,7 @@ pub struct Frame<'a> {
     pub view: View,
     /// Values of the program's parameters in order.
     pub params: &'a [f64],
-    /// Bytes of the scene's settings, as many as [`SceneModule::settings`] has.
+    /// Bytes of the scene's settings, from [`SceneModule::pack_settings`].
     pub settings: &'a [u8],
     /// The whole image.
     pub size: Size,
@@ -121,7 +121,7 @@ impl Renderer {
             uniforms: Uniforms {
                 view: buffers::uniform(gpu, "view", size_of::<ViewUniform>())?,
                 params: buffers::uniform(gpu, "params", size_of::<[f32; MAX_PARAMS]>())?,
-                settings: buffers::uniform(gpu, "settings", scene.settings.len().max(16))?,
+                settings: buffers::uniform(gpu, "settings", scene.settings_size.max(16))?,
             },
             compute: None,
             fragment: None,
@@ -381,28 +381,33 @@ fn place(band: &mut [u8], width: u32, top: u32, tile: Tile, bytes: &[u8], stride
 mod tests {
     use super::*;
     use crate::AdapterChoice;
+    use pullback_compiler::lower::Precision;
 
     const SIZE: Size = Size {
         width: 213,
         height: 117,
     };
 
-    fn scene(formula: &str) -> SceneModule {
+    /// The scene of a formula, and the bytes of its settings.
+    fn scene(formula: &str) -> (SceneModule, Vec<u8>) {
         let program = pullback_compiler::compile(formula).program.unwrap();
-        match program.scene_module(0) {
-            Ok(scene) => scene,
+        match program.scene_module(0, Precision::Accurate) {
+            Ok(scene) => {
+                let settings = scene.pack_settings(&program.pictures()[0].settings);
+                (scene, settings)
+            }
             Err(diagnostics) => panic!("{diagnostics:?}"),
         }
     }
 
-    fn frame<'a>(scene: &'a SceneModule, params: &'a [f64], pipeline: Pipeline) -> Frame<'a> {
+    fn frame(settings: &[u8], pipeline: Pipeline) -> Frame<'_> {
         Frame {
             view: View {
-                center: scene.view.center,
-                height: 2.0 * scene.view.half_height,
+                center: [0.0, 0.0],
+                height: 8.0,
             },
-            params,
-            settings: &scene.settings,
+            params: &[],
+            settings,
             size: SIZE,
             samples: 2,
             time: 0.0,
@@ -418,7 +423,7 @@ mod tests {
     #[test]
     fn both_pipelines_and_any_tiles_give_one_picture() {
         let Some(gpu) = software() else { return };
-        let scene = scene("x*x + y*y");
+        let (scene, settings) = scene("x^2 + y^2");
         let mut renderer = Renderer::new(&gpu, &scene).unwrap();
         let mut pictures = Vec::new();
         for pipeline in [Pipeline::Compute, Pipeline::Fragment] {
@@ -426,7 +431,7 @@ mod tests {
                 let budget = Budget::new(2, max_pixels, max_side);
                 let mut rows = Vec::new();
                 renderer
-                    .render_within(&frame(&scene, &[], pipeline), budget, &mut rows)
+                    .render_within(&frame(&settings, pipeline), budget, &mut rows)
                     .unwrap();
                 assert_eq!(rows.len(), 213 * 117 * 4);
                 pictures.push(rows);
@@ -443,9 +448,9 @@ mod tests {
     #[test]
     fn a_frame_outside_of_the_limits_is_refused() {
         let Some(gpu) = software() else { return };
-        let scene = scene("x + y");
+        let (scene, settings) = scene("x + y");
         let mut renderer = Renderer::new(&gpu, &scene).unwrap();
-        let good = frame(&scene, &[], Pipeline::Compute);
+        let good = frame(&settings, Pipeline::Compute);
         let many = [0.0; 65];
         let size = |width, height| Size { width, height };
         let bad = [
@@ -515,9 +520,9 @@ mod tests {
             }
         }
         let Some(gpu) = software() else { return };
-        let scene = scene("x + y");
+        let (scene, settings) = scene("x + y");
         let mut renderer = Renderer::new(&gpu, &scene).unwrap();
-        let failed = renderer.render(&frame(&scene, &[], Pipeline::Compute), &mut Full);
+        let failed = renderer.render(&frame(&settings, Pipeline::Compute), &mut Full);
         assert!(matches!(failed, Err(Error::Io(_))), "{failed:?}");
     }
 }

@@ -37,6 +37,10 @@ pub(crate) struct BatchUniform {
     pub time: f32,
     /// World units per pixel.
     pub pixel: f32,
+    /// Numbers in a row.
+    pub columns: u32,
+    /// Numbers in a result.
+    pub results: u32,
 }
 
 /// The parameters in the order of the program, zero beyond them.
@@ -57,7 +61,7 @@ mod tests {
         let module = naga::front::wgsl::parse_str(
             "struct View { center: vec2f, size: vec2f, tile: vec2f, pixel: f32, time: f32,
                            samples: u32, zero: u32, tile_size: vec2u }
-             struct Batch { count: u32, zero: u32, time: f32, pixel: f32 }",
+             struct Batch { count: u32, zero: u32, time: f32, pixel: f32, columns: u32, results: u32 }",
         )
         .unwrap();
         let size = |name: &str| {

@@ -72,6 +72,12 @@ fn times_power_of_two(v: f32, n: i32) -> f32 {
     return opaque(v * power_of_two(first), zero) * power_of_two(clamp(n - first, -126, 127));
 }
 
+/// v 2^n for |v| ≤ 2, down to the least normal number, and |n| ≤ 360.
+fn times_wide_power_of_two(v: f32, n: i32) -> f32 {
+    let first = clamp(n, -120, 120);
+    return times_power_of_two(opaque(v * power_of_two(first), hidden_zero(v)), n - first);
+}
+
 /// The upper 32 bits of a b.
 fn multiply_high(a: u32, b: u32) -> u32 {
     let a0 = a & 0xffffu;

@@ -98,6 +98,15 @@ R = sqrt(2)
 ROWS = {
     "sin": (odd(sin), odd_weight(sin), 0, Q, 2e-9, "sin r = r + r^3 P(r^2)"),
     "cos": (lambda z: (cos(sqrt(z)) - 1 + z / 2) / z**2, lambda z: z**2, 0, Q, 5e-9, "cos r = 1 - z/2 + z^2 P(z)"),
+    "sinpi": (
+        lambda z: (sin(pi * sqrt(z)) / sqrt(z) - pi) / z, lambda z: z * sqrt(z) / sin(pi * sqrt(z)), 0, 0.0626, 2e-9,
+        "sin(pi f) = pi f + f^3 P(f^2), |f| < 1/4",
+    ),
+    "cospi": (
+        lambda z: (cos(pi * sqrt(z)) - 1) / z, lambda z: z / cos(pi * sqrt(z)), 0, 0.0626, 5e-9,
+        "cos(pi f) = 1 + z P(z), z = f^2, |f| < 1/4",
+    ),
+    "atan_short": (odd(atan), odd_weight(atan), 0, mpf(1) / 60, 1e-11, "atan u = u + u^3 P(u^2), |u| < 1/8"),
     "tan": (odd(tan), odd_weight(tan), 0, Q, 1e-8, "tan r = r + r^3 P(r^2)"),
     "atan": (odd(atan), odd_weight(atan), 0, 1, 1e-8, "atan t = t + t^3 P(t^2)"),
     "asin": (odd(asin), odd_weight(asin), 0, 0.25, 6e-9, "asin t = t + t^3 P(t^2)"),

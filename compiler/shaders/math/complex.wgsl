@@ -1,4 +1,4 @@
-// Complex arithmetic, exponential, logarithm and powers; a number is vec2f(re, im). Branch cuts, signed zeros and
+// Complex arithmetic, exponential, logarithm and square root; a number is vec2f(re, im). Branch cuts, signed zeros and
 // infinities after C99 Annex G.
 
 /// Whether a component is infinite: then the number is, whatever the other is (C99 G.3).
@@ -25,7 +25,7 @@ fn complex_div_i(z: vec2f) -> vec2f {
 /// has that error, not its own.
 fn complex_mul(z: vec2f, w: vec2f) -> vec2f {
     let p = vec2f(z.x * w.x - z.y * w.y, z.x * w.y + z.y * w.x);
-    if is_nan(p.x) && is_nan(p.y) {
+    if is_nan(p.x) || is_nan(p.y) {
         return complex_mul_special(z, w, p);
     }
     return p;
@@ -45,7 +45,21 @@ fn complex_without_nan(z: vec2f) -> vec2f {
 }
 
 fn complex_mul_special(z: vec2f, w: vec2f, plain: vec2f) -> vec2f {
-    if complex_has_nan(z) && !complex_is_infinite(z) || complex_has_nan(w) && !complex_is_infinite(w) {
+    let infinite = complex_is_infinite(z) || complex_is_infinite(w);
+    if !infinite && (complex_has_nan(z) || complex_has_nan(w)) {
+        return plain;
+    }
+    if !infinite { // the products overflowed: in smaller numbers
+        let e = complex_exponent(z);
+        let f = complex_exponent(w);
+        let c = z * power_of_two(-e);
+        let d = w * power_of_two(-f);
+        return vec2f(
+            times_power_of_two(c.x * d.x - c.y * d.y, e + f),
+            times_power_of_two(c.x * d.y + c.y * d.x, e + f),
+        );
+    }
+    if !(is_nan(plain.x) && is_nan(plain.y)) {
         return plain;
     }
     var a = z;
@@ -58,16 +72,16 @@ fn complex_mul_special(z: vec2f, w: vec2f, plain: vec2f) -> vec2f {
         b = complex_box(b);
         a = complex_without_nan(a);
     }
-    // finite factors whose products overflow: their directions do not
-    a *= 1.0 / max(1.0, max(magnitude(a.x), magnitude(a.y)));
-    b *= 1.0 / max(1.0, max(magnitude(b.x), magnitude(b.y)));
+    a = complex_without_nan(a) * power_of_two(-complex_exponent(a));
+    b = complex_without_nan(b) * power_of_two(-complex_exponent(b));
     return make_infinity(1.0) * vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
 /// z², each component to 2 ulp: (x - y)(x + y) + 2 i x y.
 fn complex_square(z: vec2f) -> vec2f {
-    let p = vec2f((z.x - z.y) * (z.x + z.y), 2.0 * z.x * z.y);
-    if is_nan(p.x) {
+    let xy = z.x * z.y;
+    let p = vec2f((z.x - z.y) * (z.x + z.y), xy + xy);
+    if is_nan(p.x) || is_nan(p.y) {
         return complex_mul(z, z);
     }
     return p;
@@ -81,7 +95,9 @@ fn complex_exponent(z: vec2f) -> i32 {
 
 /// z / w for |w| ≠ 0: both scaled by powers of two, special values after C99 G.5.1.
 fn complex_div(z: vec2f, w: vec2f) -> vec2f {
-    let ez = complex_exponent(z);
+    // z only as far as it must, lest a small component underflow
+    let size = complex_exponent(z);
+    let ez = select(select(0, 8, size > 119), -64, size < -60);
     let ew = complex_exponent(w);
     let a = z * power_of_two(-ez);
     let b = w * power_of_two(-ew);
@@ -105,7 +121,8 @@ fn complex_div_special(z: vec2f, w: vec2f) -> vec2f {
         return make_infinity(1.0) * vec2f(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y);
     }
     if complex_is_infinite(w) && is_finite(z.x) && is_finite(z.y) {
-        return vec2f(0.0, 0.0);
+        let b = complex_box(w);
+        return vec2f(with_sign(0.0, z.x * b.x + z.y * b.y), with_sign(0.0, z.y * b.x - z.x * b.y));
     }
     return vec2f(make_nan(z.x), make_nan(z.y));
 }
@@ -115,6 +132,9 @@ fn complex_inverse(z: vec2f) -> vec2f {
     let e = complex_exponent(z);
     let a = z * power_of_two(-e);
     let norm = a.x * a.x + a.y * a.y;
+    if complex_is_infinite(z) {
+        return vec2f(with_sign(0.0, z.x), with_sign(0.0, -z.y));
+    }
     if !(norm > 0.0) || !is_finite(norm) {
         return complex_div_special(vec2f(1.0, 0.0), z);
     }
@@ -138,7 +158,8 @@ fn sum_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
     let p = two_product(a, b, zero);
     let q = two_product(c, d, zero);
     let s = two_sum(p.x, q.x, zero);
-    return s.x + (s.y + (p.y + q.y));
+    let rest = s.y + (p.y + q.y);
+    return select(s.x + rest, s.x, rest == 0.0); // keeps a negative zero
 }
 
 /// e^z; e^x may overflow where e^x cos y does not.
@@ -150,10 +171,10 @@ fn complex_exp(z: vec2f) -> vec2f {
         return complex_exp_special(z);
     }
     let wave = real_sincos(z.y);
-    let s = split_exponent(clamp(z.x, -150.0, 150.0));
+    let s = split_exponent(clamp(z.x, -240.0, 240.0));
     let r = 1.0 + expm1_polynomial(s.x);
     let n = i32(s.y);
-    return vec2f(times_power_of_two(r * wave.y, n), times_power_of_two(r * wave.x, n));
+    return vec2f(times_wide_power_of_two(r * wave.y, n), times_wide_power_of_two(r * wave.x, n));
 }
 
 fn complex_exp_special(z: vec2f) -> vec2f {
@@ -226,73 +247,8 @@ fn complex_sqrt(z: vec2f) -> vec2f {
     }
     let half = complex_exponent(z) >> 1u; // an even power of two comes out of the root exactly
     let a = vec2f(magnitude(z.x), magnitude(z.y)) * power_of_two(-2 * half);
-    let t = sqrt(0.5 * (a.x + sqrt(a.x * a.x + a.y * a.y)));
-    let u = 0.5 * a.y / t;
-    let back = power_of_two(half);
+    let t = sqrt(0.5 * (a.x + sqrt(a.x * a.x + a.y * a.y))) * power_of_two(half);
+    let u = 0.5 * magnitude(z.y) / t; // not of the scaled one, which may have underflowed
     let negative = sign_is_set(z.x);
-    return vec2f(select(t, u, negative) * back, with_sign(select(u, t, negative) * back, z.y));
-}
-
-/// z^n by repeated squaring for |n| ≤ 64, else through `complex_pow`; z^0 = 1. Error about |n| ulp of the norm.
-fn complex_powi(z: vec2f, n: i32) -> vec2f {
-    var left = u32(abs(n));
-    if left == 0u {
-        return vec2f(1.0, 0.0);
-    }
-    if left > 64u {
-        return complex_pow_polar(z, vec2f(f32(n), 0.0));
-    }
-    // the squarings stay in range: |base| < 4, so |base|^64 < 2^128; the powers of two are counted apart
-    let e = complex_exponent(z);
-    var base = z * power_of_two(-e);
-    var exponent = e * i32(left);
-    var power = vec2f(1.0, 0.0);
-    var started = false;
-    for (var i = 0; i < 7; i++) {
-        if (left & 1u) == 1u {
-            if started {
-                power = complex_mul(power, base);
-            } else {
-                power = base;
-            }
-            started = true;
-        }
-        left = left >> 1u;
-        if left == 0u {
-            break;
-        }
-        base = complex_square(base);
-    }
-    if n < 0 {
-        power = complex_inverse(power);
-        exponent = -exponent;
-    }
-    exponent = clamp(exponent, -220, 220);
-    return vec2f(times_power_of_two(power.x, exponent), times_power_of_two(power.y, exponent));
-}
-
-/// z^w on the principal branch: w = 0 gives 1, a small integer w gives `complex_powi`, 0^w is 0 for Re w > 0 and infinite
-/// for Re w < 0 (NaN for the other w). Error about 1 + |w log z| ulp of the norm.
-fn complex_pow(z: vec2f, w: vec2f) -> vec2f {
-    if w.y == 0.0 && magnitude(w.x) <= 64.0 && floor(w.x) == w.x {
-        return complex_powi(z, i32(w.x));
-    }
-    return complex_pow_polar(z, w);
-}
-
-fn complex_pow_polar(z: vec2f, w: vec2f) -> vec2f {
-    if magnitude(z.x) == 0.0 && magnitude(z.y) == 0.0 {
-        if w.x > 0.0 {
-            return vec2f(0.0, 0.0);
-        }
-        if w.x < 0.0 {
-            return vec2f(make_infinity(1.0), select(make_nan(z.x), 0.0, w.y == 0.0));
-        }
-        return vec2f(make_nan(z.x), make_nan(z.x));
-    }
-    if w.y == 0.0 && z.y == 0.0 && z.x > 0.0 {
-        return vec2f(real_pow(z.x, w.x), 0.0);
-    }
-    let l = complex_log(z);
-    return complex_exp(vec2f(sum_of_products(w.x, l.x, -w.y, l.y), sum_of_products(w.x, l.y, w.y, l.x)));
+    return vec2f(select(t, u, negative), with_sign(select(u, t, negative), z.y));
 }

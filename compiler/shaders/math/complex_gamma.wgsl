@@ -9,8 +9,13 @@ fn is_gamma_far(z: vec2f) -> bool {
 /// sin πz, its real part reduced exactly.
 fn complex_sin_pi(z: vec2f) -> vec2f {
     let wave = sincos_pi(z.x);
-    let h = scaled_sinhcosh(3.1415927 * z.y);
-    return vec2f(times_power_of_two(wave.x * h.cosh, h.exponent), times_power_of_two(wave.y * h.sinh, h.exponent));
+    // πy in two floats: the error of the first part would come out multiplied by |πy|
+    let p = two_product(z.y, 3.1415927, hidden_zero(z.y));
+    let low = p.y - z.y * 8.742278e-8;
+    let h = scaled_sinhcosh(p.x);
+    let cosh = h.cosh + low * h.sinh;
+    let sinh = h.sinh + low * h.cosh;
+    return vec2f(times_wide_power_of_two(wave.x * cosh, h.exponent), times_wide_power_of_two(wave.y * sinh, h.exponent));
 }
 
 /// π cot πz.
@@ -22,20 +27,26 @@ fn complex_pi_cot_pi(z: vec2f) -> vec2f {
 /// Γ for Re z ≥ -1/2 or |Im z| ≥ 5.
 fn gamma_of_right(z: vec2f) -> vec2f {
     var product = vec2f(1.0, 0.0);
-    var top = z;
-    while !is_gamma_far(top) {
-        product = complex_mul(product, top);
-        top.x += 1.0;
+    var steps = 0.0;
+    while !is_gamma_far(z + vec2f(steps, 0.0)) {
+        product = complex_mul(product, z + vec2f(steps, 0.0));
+        steps += 1.0;
     }
+    // z + steps = top + lost, top - 1/2 = power + low
+    let zero = hidden_zero(z.y);
+    let sum = two_sum(z.x, steps, zero);
+    let top = vec2f(sum.x, z.y);
+    let power = two_sum(sum.x, -0.5, zero);
     let r = complex_inverse(top);
     let w = complex_square(r);
     // B(2n) / (2n (2n - 1)), n = 1 … 4
     var series = vec2f(0.00079365079, 0.0) - 0.00059523810 * w;
     series = vec2f(-0.0027777778, 0.0) + complex_mul(w, series);
     series = vec2f(0.083333333, 0.0) + complex_mul(w, series);
-    let l = complex_log(top);
-    let power = complex_mul(vec2f(top.x - 0.5, top.y), vec2f(l.x - 1.0, l.y));
-    let value = complex_exp(power + (vec2f(0.41893853, 0.0) + complex_mul(r, series)));
+    // z^(z - 1/2) e^-z √(2π) e^s, |s| < 1/50
+    let s = complex_mul(r, series - vec2f(0.5 * sum.y, 0.0));
+    let exp_s = vec2f(1.0, 0.0) + s + complex_mul(complex_square(s), vec2f(0.5, 0.0) + s * 0.16666667);
+    let value = complex_mul(2.5066283 * exp_s, power_and_exp(top, vec2f(power.x, z.y), power.y + sum.y, -top));
     return complex_div(value, product);
 }
 
@@ -46,6 +57,12 @@ fn complex_gamma(z: vec2f) -> vec2f {
     }
     if !is_finite(z.x) || !is_finite(z.y) {
         return vec2f(make_nan(z.x), make_nan(z.y));
+    }
+    if magnitude(z.x) + magnitude(z.y) < 1e-4 { // DLMF 5.7.1
+        return complex_inverse(z) + (vec2f(-0.57721566, 0.0) + 0.98905599 * z);
+    }
+    if magnitude(z.y) > 1e3 && z.x < 100.0 { // |Γ| falls as e^(-π|y|/2)
+        return vec2f(0.0, 0.0);
     }
     if z.x < 0.5 && !is_gamma_far(z) {
         // Γ(z) = -π / (z sin πz Γ(-z))

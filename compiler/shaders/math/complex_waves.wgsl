@@ -10,11 +10,11 @@ struct ScaledWaves {
 
 fn scaled_sinhcosh(x: f32) -> ScaledWaves {
     let a = magnitude(x);
-    if a < 20.0 {
+    if a < 20.0 || is_nan(x) {
         let w = real_sinhcosh(x);
         return ScaledWaves(w.x, w.y, 0);
     }
-    let s = split_exponent(min(a, 250.0));
+    let s = split_exponent(min(a, 240.0));
     let e = 0.5 + 0.5 * expm1_polynomial(s.x);
     return ScaledWaves(flip_sign(e, sign_bit(x)), e, i32(s.y));
 }
@@ -33,8 +33,8 @@ fn complex_sinh(z: vec2f) -> vec2f {
         return vec2f(flip_sign(z.x, sign_bit(wave.y)), make_infinity(wave.x));
     }
     let h = scaled_sinhcosh(z.x);
-    let re = times_power_of_two(magnitude(h.sinh) * magnitude(wave.y), h.exponent);
-    return vec2f(flip_sign(re, sign_bit(z.x) ^ sign_bit(wave.y)), times_power_of_two(h.cosh * wave.x, h.exponent));
+    let re = times_wide_power_of_two(magnitude(h.sinh) * magnitude(wave.y), h.exponent);
+    return vec2f(flip_sign(re, sign_bit(z.x) ^ sign_bit(wave.y)), times_wide_power_of_two(h.cosh * wave.x, h.exponent));
 }
 
 /// cosh z; each component to a few ulp (C99 G.6.2.4).
@@ -53,8 +53,8 @@ fn complex_cosh(z: vec2f) -> vec2f {
         return vec2f(make_infinity(wave.y), flip_sign(z.x, sign_bit(wave.x)));
     }
     let h = scaled_sinhcosh(z.x);
-    let im = times_power_of_two(magnitude(h.sinh) * magnitude(wave.x), h.exponent);
-    return vec2f(times_power_of_two(h.cosh * wave.y, h.exponent), flip_sign(im, sign_bit(z.x) ^ sign_bit(wave.x)));
+    let im = times_wide_power_of_two(magnitude(h.sinh) * magnitude(wave.x), h.exponent);
+    return vec2f(times_wide_power_of_two(h.cosh * wave.y, h.exponent), flip_sign(im, sign_bit(z.x) ^ sign_bit(wave.x)));
 }
 
 /// tanh z = (sinh x cosh x + i sin y cos y) / (sinh² x + cos² y): no term cancels (after Kahan 1987; C99 G.6.2.6).

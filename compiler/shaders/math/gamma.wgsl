@@ -7,9 +7,11 @@ fn sincos_pi(x: f32) -> vec2f {
     let n = floor(a + 0.5);
     let f = a - n; // exact, in [-1/2, 1/2]
     let outer = magnitude(f) > 0.25;
-    let r = 3.1415927 * select(magnitude(f), 0.5 - magnitude(f), outer);
-    let s = sin_polynomial(r);
-    let c = cos_polynomial(r);
+    let g = select(magnitude(f), 0.5 - magnitude(f), outer);
+    let z = g * g;
+    // π = 3.1415927 - 8.742278e-8; coefficients.py, sinpi and cospi
+    let s = g * 3.1415927 + g * (z * (-5.1677127 + z * (2.5501628 + z * (-0.5992052 + z * 0.081022955))) - 8.742278e-8);
+    let c = 1.0 + z * (-4.934802 + z * (4.0587077 + z * (-1.3350499 + z * 0.23135775)));
     let odd = select(0u, 0x80000000u, n * 0.5 != floor(n * 0.5));
     return vec2f(flip_sign(select(s, c, outer), odd ^ sign_bit(x) ^ sign_bit(f)), flip_sign(select(c, s, outer), odd));
 }
@@ -31,17 +33,23 @@ fn stirling_series(x: f32) -> f32 {
     return r * (0.083333306 + w * (-0.00277489 + w * 0.00071935874));
 }
 
-/// Γ(x) for x > 0: below 3.5 by 1/Γ(1 + t) and at most two exact factors, above by Stirling's series in two floats.
-fn gamma_of_positive(x: f32) -> f32 {
-    if x < 0.5 {
-        return 1.0 / (x * rgamma_polynomial(x));
+/// Γ(x) for |x| < 3.5, not a pole: 1/Γ(1 + t) and at most four exact factors (DLMF 5.5.1).
+fn gamma_of_small(x: f32) -> f32 {
+    let n = i32(floor(x + 0.5));
+    let t = x - f32(n);
+    var above = 1.0;
+    var below = rgamma_polynomial(t);
+    for (var k = 1; k < n; k++) {
+        above *= x - f32(k);
     }
-    if x < 3.5 {
-        let n = floor(x + 0.5);
-        var product = select(1.0, x - 1.0, n > 1.5);
-        product *= select(1.0, x - 2.0, n > 2.5);
-        return product / rgamma_polynomial(x - n);
+    for (var k = 0; k <= -n; k++) {
+        below *= x + f32(k);
     }
+    return above / below;
+}
+
+/// Γ(x) for x > 3.5 by Stirling's series in two floats.
+fn gamma_of_large(x: f32) -> f32 {
     if x > 36.0 {
         return make_infinity(1.0);
     }
@@ -53,7 +61,7 @@ fn gamma_of_positive(x: f32) -> f32 {
     let q = two_product(x, 1.442695, zero);
     let s = two_sum(p.x, -q.x, zero);
     let t = two_sum(s.x, 1.325748, zero);
-    let low = (s.y + t.y) + ((p.y - q.y) + (h * l.y - x * 1.925963e-8)) + (stirling_series(x) * 1.442695 + 6.6211886e-8);
+    let low = (s.y + t.y) + ((p.y - q.y) + (h * l.y - x * 1.925963e-8)) + (stirling_series(x) * 1.442695 + 9.79698e-8);
     let a = opaque(t.x + low, zero);
     return exp2_pair(a, opaque(t.x - a, zero) + low, zero);
 }
@@ -64,13 +72,24 @@ fn real_gamma(x: f32) -> f32 {
     if y < 1e-8 {
         return select(1.0 / x, make_infinity(x), y == 0.0);
     }
-    if x > 0.0 {
-        return gamma_of_positive(x);
-    }
-    if is_gamma_pole(x) || !is_finite(x) {
+    if is_gamma_pole(x) || is_nan(x) {
         return make_nan(x);
     }
-    return -3.1415927 / (y * sincos_pi(y).x * gamma_of_positive(y));
+    if y < 3.5 {
+        return gamma_of_small(x);
+    }
+    if x > 0.0 {
+        return gamma_of_large(x);
+    }
+    if is_infinite(x) {
+        return make_nan(x);
+    }
+    let r = -3.1415927 / (y * sincos_pi(y).x);
+    if y < 34.0 {
+        return r / gamma_of_large(y);
+    }
+    // Γ(y) overflows before the result underflows
+    return r / ((y - 1.0) * (y - 2.0)) / gamma_of_large(y - 2.0);
 }
 
 /// log |Γ(x)|: ∞ at the poles. Relative accuracy near its zeros at 1 and 2; at those left of 0 absolute.
@@ -86,6 +105,9 @@ fn real_lgamma(x: f32) -> f32 {
     if x > 0.0 {
         return r;
     }
+    if y < 1e-9 {
+        return r;
+    }
     return -(real_log(magnitude(sincos_pi(y).x) * 0.31830987 * y) + r);
 }
 
@@ -96,7 +118,7 @@ fn lgamma_of_positive(x: f32) -> f32 {
     if x < 1.5 {
         let t = select(x - 1.0, x, x < 0.5);
         let near = t * (-0.5772157 + t * (0.8224669 + t * (-0.40068588 + t * (0.27059442 + t * (-0.20738241 + t * (0.16913113 + t * (-0.14391841 + t * (0.13112795 + t * (-0.114556514 + t * (0.06517511 + t * (-0.065422155 + t * (0.17993969 + t * -0.15788352))))))))))));
-        return select(near, near - real_log(x), x < 0.5);
+        return select(select(near, 0.0, t == 0.0), near - real_log(x), x < 0.5); // +0 at 1
     }
     let t = select(x - 2.0, x - 3.0, x >= 2.5);
     let near = t * (0.42278433 + t * (0.32246703 + t * (-0.06735222 + t * (0.020581601 + t * (-0.0073874276 + t * (0.002879056 + t * (-0.0011778412 + t * (0.0005698234 + t * -0.00026985176))))))));

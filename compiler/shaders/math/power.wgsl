@@ -77,16 +77,15 @@ fn real_pow(x: f32, y: f32) -> f32 {
     return flip_sign(power_of_positive(a, y, 0.0), sign);
 }
 
-/// x^n for every integer n: up to 8 factors by multiplication, more by logarithms in two floats. x^0 = 1.
+/// x^n for every integer n: up to 5 factors by multiplication, more by logarithms in two floats. x^0 = 1.
 fn real_powi(x: f32, n: i32) -> f32 {
     let count = u32(abs(n)); // 2^31 for the least i32
-    if count <= 8u {
+    if count <= select(5u, 4u, n < 0) {
         let x2 = x * x;
         let x4 = x2 * x2;
         var p = select(1.0, x, (count & 1u) == 1u);
         p *= select(1.0, x2, (count & 2u) == 2u);
         p *= select(1.0, x4, (count & 4u) == 4u);
-        p = select(p, x4 * x4, count == 8u);
         if n >= 0 {
             return p;
         }

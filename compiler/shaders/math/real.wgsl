@@ -51,8 +51,9 @@ fn real_expm1(x: f32) -> f32 {
     if is_nan(x) {
         return x;
     }
-    if magnitude(x) < 0.34 {
-        return expm1_polynomial(x);
+    let a = magnitude(x);
+    if a < 0.34 {
+        return select(expm1_polynomial(x), x, a < 1e-8);
     }
     let s = split_exponent(clamp(x, -50.0, 150.0));
     let n = i32(s.y);
@@ -172,8 +173,8 @@ fn real_cosh(x: f32) -> f32 {
 fn real_tanh(x: f32) -> f32 {
     let a = magnitude(x);
     if a < 0.63 {
-        let z = x * x;
-        return x + x * z * (-0.33333275 + z * (0.13331275 + z * (-0.05372513 + z * (0.020589832 + z * -0.005648322))));
+        let z = a * a;
+        return flip_sign(a + a * z * (-0.33333275 + z * (0.13331275 + z * (-0.05372513 + z * (0.020589832 + z * -0.005648322)))), sign_bit(x));
     }
     let r = 1.0 - 2.0 / (exp_scaled(2.0 * min(a, 20.0), 0) + 1.0);
     return select(flip_sign(r, sign_bit(x)), x, is_nan(x));
@@ -183,8 +184,8 @@ fn real_tanh(x: f32) -> f32 {
 fn real_asinh(x: f32) -> f32 {
     let a = magnitude(x);
     if a < 0.5 {
-        let z = x * x;
-        return x + x * z * (-0.16666643 + z * (0.074986525 + z * (-0.044384517 + z * (0.028169118 + z * -0.013237515))));
+        let z = a * a;
+        return flip_sign(a + a * z * (-0.16666643 + z * (0.074986525 + z * (-0.044384517 + z * (0.028169118 + z * -0.013237515)))), sign_bit(x));
     }
     if a > 1e8 || is_nan(x) {
         return flip_sign(real_log(a) + 0.6931472, sign_bit(x));
@@ -277,7 +278,7 @@ fn real_mod(x: f32, y: f32) -> f32 {
         return make_nan(x);
     }
     if is_infinite(y) {
-        return select(y, x, sign_bit(x) == sign_bit(y) || x == 0.0);
+        return select(select(y, x, sign_bit(x) == sign_bit(y)), with_sign(0.0, y), x == 0.0);
     }
     let r = remainder_of_magnitudes(magnitude(x), b);
     if r == 0.0 || sign_bit(x) == sign_bit(y) {

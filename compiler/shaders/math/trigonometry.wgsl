@@ -15,8 +15,9 @@ fn quarter_turns(a: f32) -> QuarterTurns {
     let zero = hidden_zero(a);
     let n = floor(a * 0.63661975 + 0.5);
     let t = opaque(a - n * 1.570770263671875, zero);
-    let u = opaque(t - n * 2.6063062250614166e-05, zero);
-    return QuarterTurns(u - n * 6.07710062827671e-11, u32(n));
+    let p = n * 2.6063062250614166e-05;
+    let u = opaque(t - p, zero);
+    return QuarterTurns(u + (((t - u) - p) - n * 6.07710062827671e-11), u32(n));
 }
 
 /// Reduction for a > 400 in integers, which no driver reassociates (Payne and Hanek 1983): the significand times the

@@ -95,6 +95,12 @@ fn structural(
             let right = t.map(|t| g.mul(a, t));
             sum(g, left, right)
         }
+        // (1/b)' = -(1/b)² b'
+        (Prim::Div, &[one, _], &[None, Some(t)]) if g.as_real(one) == Some(1.0) => {
+            let square = g.apply(Prim::PowInt(2), &[value]);
+            let product = g.mul(square, t);
+            Some(g.neg(product))
+        }
         // (a/b)' = (a' - (a/b) b') / b
         (Prim::Div, &[_, b], &[s, t]) => {
             let correction = t.map(|t| g.mul(value, t));

@@ -1,7 +1,7 @@
 //! Reverse mode for one real root: adjoints of every node.
 
 use super::NoDerivative;
-use super::rules::{int_power_partial, takes_second};
+use super::rules::takes_second;
 use crate::ir::{Graph, Id, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
@@ -88,9 +88,12 @@ fn contribution(
                 Some(g.neg(product))
             }
         }
+        // n · adjoint first: terms of one degree share it
         (_, Prim::PowInt(n), &[x]) => {
-            let slope = int_power_partial(g, x, n);
-            Some(g.mul(slope, adjoint))
+            let factor = g.real(f64::from(n));
+            let scaled = g.mul(factor, adjoint);
+            let power = g.apply(Prim::PowInt(n.saturating_sub(1)), &[x]);
+            Some(g.mul(scaled, power))
         }
         (_, Prim::Abs, &[x]) => {
             let sign = g.apply(Prim::Sign, &[x]);

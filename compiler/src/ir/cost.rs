@@ -1,6 +1,6 @@
 //! Counted cost of an expression.
 
-use super::{Graph, Id, Op, Ty, expand_powers};
+use super::{Graph, Id, Op, Prim, Ty, expand_powers};
 use crate::table;
 
 /// Cost of an expression after common subexpressions, integer powers counted as products.
@@ -26,11 +26,21 @@ pub fn cost(graph: &Graph, roots: &[Id]) -> Cost {
         let complex = node.ty == Ty::Complex
             || node.args.iter().any(|&a| graph.ty(a) == Ty::Complex);
         let row = table::row(prim);
-        let weight = if complex { row.cost.complex } else { row.cost.real };
+        let weight = match table::pair(prim) {
+            // the second of a pair that is computed together
+            Some(pair) if follows_partner(&graph, &live, id, pair.partner) => pair.extra,
+            _ => row.cost,
+        };
+        let weight = if complex { weight.complex } else { weight.real };
         if weight > 0 {
             total.operations += 1;
             total.weighted += u32::from(weight);
         }
     }
     total
+}
+
+fn follows_partner(graph: &Graph, live: &[bool], id: Id, partner: Prim) -> bool {
+    let partner = graph.find_unary(partner, graph.node(id).args[0]);
+    partner.is_some_and(|p| p < id && live[p.index()])
 }

@@ -147,6 +147,17 @@ impl Graph {
         }
     }
 
+    /// The node that applies `prim` to one operand, where the graph has it.
+    #[must_use]
+    pub fn find_unary(&self, prim: Prim, arg: Id) -> Option<Id> {
+        let node = Node {
+            op: Op::Apply(prim),
+            ty: self.ty(arg),
+            args: SmallVec::from_slice(&[arg]),
+        };
+        self.ids.get(&node).copied()
+    }
+
     /// Remembers the user's name of a value; the first name stays.
     pub fn set_name(&mut self, id: Id, name: &str) {
         self.names.entry(id).or_insert_with(|| name.to_owned());

@@ -14,6 +14,8 @@ const MATH: &str = concat!(
     include_str!("../../shaders/math/complex.wgsl"),
     include_str!("../../shaders/math/complex_waves.wgsl"),
     include_str!("../../shaders/math/complex_gamma.wgsl"),
+    include_str!("../../shaders/math/complex_power.wgsl"),
+    include_str!("../../shaders/math/pairs.wgsl"),
 );
 
 /// Functions that scenes draw with, as one text.
@@ -71,5 +73,16 @@ impl Sources {
     #[must_use]
     pub fn get() -> Self {
         Self { entry: entry_module(), shared: shared_module(), math: math_module() }
+    }
+}
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_text_parses() {
+        for (name, text) in [("math", MATH), ("shared", SHARED), ("entry", ENTRY)] {
+            assert_eq!(parse_wgsl(text).1, None, "{name}");
+        }
     }
 }

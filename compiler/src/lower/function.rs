@@ -4,6 +4,7 @@ use naga::{
     BinaryOperator, Expression, Function, GlobalVariable, Handle, MathFunction, Type, TypeInner,
     VectorSize,
 };
+use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::body::Body;
@@ -97,11 +98,13 @@ pub fn lower(
         leaves: interface.leaves,
         precision: interface.precision,
         linker,
+        live: graph.reachable(&roots),
+        pairs: FxHashMap::default(),
         values: vec![None; graph.nodes().len()],
         depths: vec![0; graph.nodes().len()],
     };
-    lowering.declare_leaves(&roots);
-    lowering.nodes(&roots)?;
+    lowering.declare_leaves();
+    lowering.nodes()?;
     let value = lowering.output(&interface.output, &roots)?;
     Ok(lowering.body.finish(value))
 }
@@ -114,6 +117,9 @@ struct Lowering<'g, 'l, 's> {
     leaves: Leaves,
     precision: Precision,
     linker: &'l mut Linker<'s>,
+    live: Vec<bool>,
+    /// Results of functions that are computed in pairs, by pair function and operand.
+    pairs: FxHashMap<(&'static str, Id), Handle<Expression>>,
     values: Vec<Option<Handle<Expression>>>,
     /// Levels of unnamed expressions below each value.
     depths: Vec<u8>,
@@ -135,14 +141,13 @@ impl Provider for LibraryOnly {
 
 impl Lowering<'_, '_, '_> {
     /// Literals and arguments first, so that they do not cut the emitted ranges apart.
-    fn declare_leaves(&mut self, roots: &[Id]) {
+    fn declare_leaves(&mut self) {
         for k in 0..self.body.function.arguments.len() {
             self.body.declare(Expression::FunctionArgument(u32::try_from(k).unwrap_or(0)));
         }
-        let live = self.graph.reachable(roots);
         for (id, node) in self.graph.ids().zip(self.graph.nodes()) {
             if let Op::Const(bits) = node.op
-                && live[id.index()]
+                && self.live[id.index()]
                 && let Some(value) = finite(f64::from_bits(bits))
             {
                 self.values[id.index()] = Some(self.body.literal(value));
@@ -150,11 +155,10 @@ impl Lowering<'_, '_, '_> {
         }
     }
 
-    fn nodes(&mut self, roots: &[Id]) -> Result<(), LowerError> {
-        let live = self.graph.reachable(roots);
+    fn nodes(&mut self) -> Result<(), LowerError> {
         let graph = self.graph;
         for (id, node) in graph.ids().zip(graph.nodes()) {
-            if !live[id.index()] || self.values[id.index()].is_some() {
+            if !self.live[id.index()] || self.values[id.index()].is_some() {
                 continue;
             }
             let value = self.node(node)?;
@@ -282,6 +286,9 @@ impl Lowering<'_, '_, '_> {
         for &arg in &node.args {
             args.push(self.value(arg)?);
         }
+        if let Some(value) = self.paired(prim, node, &args)? {
+            return Ok(value);
+        }
         let complex = node.args.iter().any(|&a| self.graph.ty(a) == Ty::Complex);
         if complex || node.ty == Ty::Complex {
             return self.apply_complex(prim, node, &args);
@@ -303,6 +310,38 @@ impl Lowering<'_, '_, '_> {
                 _ => Err(LowerError::NoForm(table::row(prim).usage)),
             },
         }
+    }
+
+    /// One half of a pair of functions that are computed together, where both are wanted.
+    fn paired(
+        &mut self,
+        prim: Prim,
+        node: &Node,
+        args: &[Handle<Expression>],
+    ) -> Result<Option<Handle<Expression>>, LowerError> {
+        let Some(pair) = table::pair(prim) else { return Ok(None) };
+        let operand = node.args[0];
+        let partner = self.graph.find_unary(pair.partner, operand);
+        let complex = node.ty == Ty::Complex;
+        // the fast tier calls built-ins, on reals
+        let single = self.precision == Precision::Fast && !complex;
+        if single || !partner.is_some_and(|p| self.live[p.index()]) {
+            return Ok(None);
+        }
+        let name = if complex { pair.gpu_complex } else { pair.gpu };
+        let both = match self.pairs.get(&(name, operand)) {
+            Some(&both) => both,
+            None => {
+                let both = self.library(name, args.to_vec())?;
+                self.pairs.insert((name, operand), both);
+                both
+            }
+        };
+        if !complex {
+            return Ok(Some(self.part(both, pair.place)));
+        }
+        let (re, im) = (self.part(both, 2 * pair.place), self.part(both, 2 * pair.place + 1));
+        Ok(Some(self.compose(vec![re, im])))
     }
 
     fn apply_complex(

@@ -38,17 +38,25 @@ impl SceneModule {
     /// # Errors
     /// The formula has no form that the scene needs, such as a missing derivative.
     pub fn new(picture: &Picture, precision: Precision) -> Result<Self, ModuleError> {
+        let mut module = Self::link(picture, precision)?;
+        naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
+        let info = validate(&module)?;
+        let (layout, settings_size) = layout(picture.scene);
+        Ok(Self { module, info, layout, settings_size })
+    }
+
+    /// The first step of [`Self::new`]: derivatives, lowering and linking, not yet compacted and validated.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn link(picture: &Picture, precision: Precision) -> Result<Module, ModuleError> {
         let sources = Sources::get();
         let template = picture.scene.module();
         let mut linker =
             Linker::new(vec![template, sources.entry, sources.shared, sources.math]);
         let mut demand = Demand { formula: &picture.formula, precision };
         linker.link_entry_points(1, &mut demand)?;
-        let mut module = linker.out;
-        naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
-        let info = validate(&module)?;
-        let (layout, settings_size) = layout(picture.scene);
-        Ok(Self { module, info, layout, settings_size })
+        Ok(linker.out)
     }
 
     /// The bytes of the settings' uniform.

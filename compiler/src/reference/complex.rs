@@ -26,7 +26,8 @@ pub fn sum_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     if !plain.is_finite() || !cd.is_finite() {
         return a * b + cd;
     }
-    plain + c.mul_add(d, -cd)
+    let rest = c.mul_add(d, -cd);
+    if rest == 0.0 { plain } else { plain + rest } // keeps a negative zero
 }
 
 /// e with |v| in [2^e, 2^(e+1)); 0 where v is 0, infinite or NaN.
@@ -235,9 +236,24 @@ impl Complex {
         }
     }
 
-    /// 1 / z.
+    /// 1 / z = z̄ / |z|²: below the real axis for +0, which the quotient 1 / z loses.
     pub fn inverse(self) -> Self {
-        Self::ONE / self
+        if self.is_infinite() {
+            return complex(0.0_f64.copysign(self.re), 0.0_f64.copysign(-self.im));
+        }
+        let e = exponent(self.re.abs().max(self.im.abs()));
+        let z = complex(
+            times_power_of_two(self.re, -e),
+            times_power_of_two(self.im, -e),
+        );
+        let norm = z.re * z.re + z.im * z.im;
+        if norm == 0.0 {
+            return Self::ONE / self;
+        }
+        complex(
+            times_power_of_two(z.re / norm, -e),
+            times_power_of_two(-z.im / norm, -e),
+        )
     }
 
     /// e^z (C99 G.6.3.1).
@@ -342,29 +358,62 @@ impl Complex {
 
     /// z^n for every integer n by repeated squaring: exact where the products are; z^0 = 1 for every z.
     pub fn powi(self, n: i32) -> Self {
-        let (mut power, mut base, mut left) = (Self::ONE, self, n.unsigned_abs());
-        if n == 0 {
-            return power;
+        if self.im == 0.0 && n != 0 {
+            let flip = (n % 2 == 0 && self.re.is_sign_negative()) != (n < 0);
+            return complex(
+                self.re.powf(f64::from(n)),
+                if flip { -self.im } else { self.im },
+            );
         }
-        let mut started = false;
+        // the powers of two are counted apart, lest a square overflow on the way to a small result
+        let normal = |z: Self, e: i64| {
+            let shift = exponent(z.re.abs().max(z.im.abs()));
+            (
+                complex(
+                    times_power_of_two(z.re, -shift),
+                    times_power_of_two(z.im, -shift),
+                ),
+                e + i64::from(shift),
+            )
+        };
+        if n == 0 || !self.is_finite() {
+            return if n == 0 {
+                Self::ONE
+            } else {
+                self.powi_unscaled(n)
+            };
+        }
+        let mut power: Option<(Self, i64)> = None;
+        let mut base = normal(self, 0);
+        let mut left = n.unsigned_abs();
         while left > 0 {
             if left & 1 == 1 {
-                power = if started { power * base } else { base };
-                started = true;
+                power = Some(power.map_or(base, |(p, e)| normal(p * base.0, e + base.1)));
             }
             left >>= 1;
             if left > 0 {
-                base = base.square();
+                base = normal(base.0.square(), 2 * base.1);
             }
         }
-        if n > 0 {
-            return power;
+        let (power, exponent) = power.unwrap_or((Self::ONE, 0));
+        let (power, exponent) = if n < 0 {
+            (power.inverse(), -exponent)
+        } else {
+            (power, exponent)
+        };
+        let exponent = exponent.clamp(-5000, 5000) as i32;
+        complex(
+            times_power_of_two(power.re, exponent),
+            times_power_of_two(power.im, exponent),
+        )
+    }
+
+    fn powi_unscaled(self, n: i32) -> Self {
+        let mut power = self;
+        for _ in 1..n.unsigned_abs().min(4) {
+            power = power * self;
         }
-        let plain = power.inverse();
-        if plain.is_finite() && power.is_finite() && plain != Self::ZERO {
-            return plain;
-        }
-        self.inverse().powi(n.checked_neg().unwrap_or(i32::MAX))
+        if n < 0 { power.inverse() } else { power }
     }
 
     /// z^w on the principal branch: w = 0 gives 1, an integer w gives `powi`, 0^w is 0 for Re w > 0 and infinite
@@ -386,7 +435,44 @@ impl Complex {
         if w.im == 0.0 && self.im == 0.0 && self.re > 0.0 {
             return complex(self.re.powf(w.re), 0.0 * w.re * self.im);
         }
-        (w * self.log()).exp()
+        // quarter turns are counted apart, so that powers of numbers near the axes keep their small component
+        let (turns, rest) = self.phase();
+        let size = sum_of_products(w.re, log_hypot(self.re, self.im), -w.im, self.arg());
+        let counted = w.re * turns;
+        let count = counted.round();
+        let angle = sum_of_products(w.re, rest, w.im, log_hypot(self.re, self.im));
+        let v = complex(
+            size,
+            (counted - count) * std::f64::consts::FRAC_PI_2 + angle,
+        )
+        .exp();
+        match count.rem_euclid(4.0) as i32 {
+            0 => v,
+            1 => v.mul_i(),
+            2 => -v,
+            _ => v.div_i(),
+        }
+    }
+
+    /// The phase as `turns` π/2 + rest, |rest| ≤ π/4.
+    fn phase(self) -> (f64, f64) {
+        let (x, y) = (self.re.abs(), self.im.abs());
+        let steep = y > x;
+        let left = self.re.is_sign_negative();
+        let rest = if steep { x.atan2(y) } else { y.atan2(x) };
+        let turns: f64 = if steep {
+            1.0
+        } else if left {
+            2.0
+        } else {
+            0.0
+        };
+        let rest = if steep == left { rest } else { -rest };
+        if self.im.is_sign_negative() {
+            (-turns, -rest)
+        } else {
+            (turns, rest)
+        }
     }
 }
 

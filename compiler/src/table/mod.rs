@@ -94,6 +94,48 @@ pub enum Gpu {
     Structural,
 }
 
+/// Two functions of one argument that a shader computes together, where both are wanted.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair {
+    /// The other function.
+    pub partner: Prim,
+    /// The place of this function's value in the pair.
+    pub place: u32,
+    /// Shader function on reals, giving two reals.
+    pub gpu: &'static str,
+    /// Shader function on complex numbers, giving four reals.
+    pub gpu_complex: &'static str,
+    /// What the second value costs when the first is computed.
+    pub extra: Weight,
+}
+
+/// The pair that a function belongs to.
+#[must_use]
+pub fn pair(prim: Prim) -> Option<Pair> {
+    let extra = Weight { real: 3, complex: 8 };
+    let circular = |partner, place| Pair {
+        partner,
+        place,
+        gpu: "real_sincos",
+        gpu_complex: "complex_sincos",
+        extra,
+    };
+    let hyperbolic = |partner, place| Pair {
+        partner,
+        place,
+        gpu: "real_sinhcosh",
+        gpu_complex: "complex_sinhcosh",
+        extra,
+    };
+    match prim {
+        Prim::Sin => Some(circular(Prim::Cos, 0)),
+        Prim::Cos => Some(circular(Prim::Sin, 1)),
+        Prim::Sinh => Some(hyperbolic(Prim::Cosh, 0)),
+        Prim::Cosh => Some(hyperbolic(Prim::Sinh, 1)),
+        _ => None,
+    }
+}
+
 impl Row {
     /// The operation's value, in `f64`; `None` where the operand types do not fit.
     #[must_use]

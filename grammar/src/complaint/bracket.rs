@@ -101,6 +101,14 @@ impl Parser<'_> {
         if !is_else && self.at(TokenKind::End) {
             return;
         }
+        let statement = self.first_span();
+        let follows = self
+            .diagnostics
+            .last()
+            .is_some_and(|last| last.code == "missing-then" && last.span.start >= statement.start);
+        if follows && self.at(TokenKind::RBrace) {
+            return;
+        }
         if let Some(place) = self.retract_missing_operator(opening) {
             self.diagnostics.push(
                 Diagnostic::error("missing-colon", place, "missing `:`")

@@ -36,7 +36,9 @@ impl Parser<'_> {
     /// `conditional = "if" disjunction "then" disjunction "else" disjunction`
     pub(crate) fn conditional(&mut self) -> Node {
         let opening = self.bump();
+        let outer = std::mem::replace(&mut self.in_condition, true);
         let cond = self.disjunction();
+        self.in_condition = outer;
         self.expect_then(opening);
         let then = self.disjunction();
         let otherwise = if self.expect_else(opening) {

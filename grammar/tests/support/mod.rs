@@ -184,6 +184,7 @@ pub fn check_structure(text: &str, parsed: &Parsed) {
                 within(span, name.span);
                 assert_eq!(name.span.text(text), name.text);
             }
+            Expr::Error => assert!(parsed.has_errors(), "an unreported error in {text:?}"),
             Expr::Compare { rest, .. } => assert!(!rest.is_empty()),
             Expr::Vector(items) => assert!((2..=4).contains(&items.len())),
             _ => {}

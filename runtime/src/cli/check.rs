@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use clap::Args;
+use pullback_compiler::lower::Precision;
 
 use super::failure::Failure;
 use super::source::Source;
@@ -21,7 +22,10 @@ pub(super) fn run(arguments: &CheckArguments, console: &Console) -> Result<(), F
     let mut failed = false;
     let mut scenes = Vec::new();
     for (index, picture) in source.program.pictures().iter().enumerate() {
-        let made = source.expect(source.program.scene_module(index), console);
+        let made = source.expect(
+            source.program.scene_module(index, Precision::Accurate),
+            console,
+        );
         failed |= made.is_err();
         scenes.push(picture.scene.name);
     }

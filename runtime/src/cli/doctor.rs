@@ -4,8 +4,10 @@ use std::io::{self, Write};
 use std::time::Instant;
 
 use pullback_compiler::What;
+use pullback_compiler::lower::Precision;
 use pullback_runtime::device::{self, AdapterSummary};
 use pullback_runtime::evaluate::Surroundings;
+use pullback_runtime::probe::{self, Arithmetic};
 use pullback_runtime::{Error, Gpu, GpuEvaluator};
 
 use super::Console;
@@ -48,8 +50,9 @@ pub(super) fn run(_console: &Console) -> Result<(), Failure> {
         text += &format!("adapter {}: {}\n", i + 1, summary.name);
         text += &facts(adapter, &summary);
         match trial(adapter) {
-            Ok(line) => {
-                text += &format!("  test       {line}\n\n");
+            Ok(lines) => {
+                text += &lines;
+                text.push('\n');
                 working.push(summary);
             }
             Err(error) => text += &format!("  test       FAILED: {error}\n\n"),
@@ -95,7 +98,7 @@ fn facts(adapter: &wgpu::Adapter, summary: &AdapterSummary) -> String {
     text
 }
 
-/// Evaluates a formula on the adapter and compares.
+/// Evaluates a formula on the adapter, compares, and tries the adapter's arithmetic.
 fn trial(adapter: &wgpu::Adapter) -> Result<String, Error> {
     let invalid = |reason: &str| Error::Invalid {
         reason: reason.into(),
@@ -104,7 +107,7 @@ fn trial(adapter: &wgpu::Adapter) -> Result<String, Error> {
         .program
         .ok_or_else(|| invalid("the trial formula does not compile"))?;
     let module = program
-        .eval_module(What::Value)
+        .eval_module(0, What::Value, Precision::Accurate)
         .map_err(|_| invalid("the trial formula does not compile"))?;
     let start = Instant::now();
     let gpu = Gpu::from_adapter(adapter)?;
@@ -126,10 +129,38 @@ fn trial(adapter: &wgpu::Adapter) -> Result<String, Error> {
         return Err(invalid("the results are wrong"));
     }
     Ok(format!(
-        "ok, ready in {:.0} ms, {ROWS} rows in {:.1} ms",
+        "  test       ok, ready in {:.0} ms, {ROWS} rows in {:.1} ms\n{}",
         ready.as_secs_f64() * 1e3,
-        elapsed.as_secs_f64() * 1e3
+        elapsed.as_secs_f64() * 1e3,
+        habits(&probe::arithmetic(&gpu)?)
     ))
+}
+
+/// The adapter's arithmetic in words.
+fn habits(found: &Arithmetic) -> String {
+    let exact = |share: f64| {
+        if share == 0.0 {
+            "exact".to_owned()
+        } else {
+            format!("wrong for {:.1} %", 100.0 * share)
+        }
+    };
+    let yes = |kept: bool, habit: &'static str, vice: &'static str| if kept { habit } else { vice };
+    format!(
+        "  sums       TwoSum as written {}, with hidden steps {}\n  \
+           products   TwoProd by fma {}, by splitting with hidden steps {}\n  \
+           rounding   division within {:.2} ulp, square root within {:.2} ulp\n  \
+           special    subnormals {}, NaN {}, infinity {}\n",
+        exact(found.two_sum),
+        exact(found.two_sum_opaque),
+        exact(found.two_prod_fma),
+        exact(found.two_prod_split),
+        found.division_ulp,
+        found.sqrt_ulp,
+        yes(found.subnormals, "kept", "flushed to zero"),
+        yes(found.nan, "unequal to itself", "taken for equal to itself"),
+        yes(found.infinity, "of 1/0", "not of 1/0"),
+    )
 }
 
 fn advice(found: usize, working: &[AdapterSummary]) -> String {

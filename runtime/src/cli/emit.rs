@@ -9,7 +9,7 @@ use pullback_runtime::AtomicFile;
 
 use super::failure::Failure;
 use super::source::Source;
-use super::{Console, Input, Output, render};
+use super::{Console, Input, Numbers, Output, Which, render};
 
 /// Arguments of `pullback emit`.
 #[derive(Debug, Args)]
@@ -22,6 +22,10 @@ pub(super) struct EmitArguments {
     /// What to write
     #[arg(long, value_enum, default_value_t = Part::Value)]
     what: Part,
+    #[command(flatten)]
+    which: Which,
+    #[command(flatten)]
+    numbers: Numbers,
     #[command(flatten)]
     output: Output,
 }
@@ -74,7 +78,11 @@ pub(super) fn run(arguments: &EmitArguments, console: &Console) -> Result<(), Fa
         Part::Derivative => EmitWhat::Derivative,
         Part::Scene => EmitWhat::Scene,
     };
-    let code = source.expect(source.program.emit(what, target), console)?;
+    let index = source.picture(arguments.which, console)?;
+    let made = source
+        .program
+        .emit(index, what, target, arguments.numbers.into());
+    let code = source.expect(made, console)?;
     let shown = render::name(&path);
     AtomicFile::create(&path)
         .and_then(|mut file| {

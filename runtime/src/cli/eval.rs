@@ -13,7 +13,7 @@ use pullback_runtime::{Gpu, GpuEvaluator};
 use super::failure::Failure;
 use super::progress::Progress;
 use super::source::Source;
-use super::{Console, Device, Input, Precision, Settings, overrides};
+use super::{Console, Device, Input, Numbers, Settings, Which, overrides};
 
 /// Rows that are read, evaluated and written at a time.
 const BATCH: usize = 1 << 17;
@@ -31,9 +31,10 @@ pub(super) struct EvalArguments {
     /// Who computes it
     #[arg(long, value_enum, default_value_t = Place::Gpu)]
     on: Place,
-    /// How numbers are computed on the device
-    #[arg(long, value_enum, default_value_t = Precision::Accurate)]
-    precision: Precision,
+    #[command(flatten)]
+    numbers: Numbers,
+    #[command(flatten)]
+    which: Which,
     /// Rows of numbers, one column for each real argument, two for a complex one, three for a vec3; # comments;
     /// - is the standard input
     #[arg(long, value_name = "FILE")]
@@ -79,6 +80,7 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
         Part::Gradient => What::Gradient,
         Part::Derivative => What::Derivative,
     };
+    let index = source.picture(arguments.which, console)?;
     let params = overrides::for_values(&arguments.settings.set, &source.program)?;
     let surroundings = Surroundings {
         params: &params,
@@ -87,7 +89,7 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
     };
     match arguments.on {
         Place::Reference => {
-            let evaluator = source.expect(source.program.evaluator(what), console)?;
+            let evaluator = source.expect(source.program.evaluator(index, what), console)?;
             let mut table = Table::open(arguments, evaluator.inputs())?;
             let mut machine = Reference {
                 evaluator,
@@ -96,9 +98,9 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
             table.run(&mut machine, console)
         }
         Place::Gpu => {
-            // The only tier so far.
-            let Precision::Accurate = arguments.precision;
-            let module = source.expect(source.program.eval_module(what), console)?;
+            let precision = arguments.numbers.into();
+            let module = source.program.eval_module(index, what, precision);
+            let module = source.expect(module, console)?;
             let mut table = Table::open(arguments, &module.inputs)?;
             let gpu = Gpu::open(&arguments.device.adapter)?;
             console.note(&format!("adapter: {}", gpu.adapter()));

@@ -3,8 +3,7 @@
 use std::str::FromStr;
 
 use pullback_compiler::scene::{SettingKind, SettingSpec};
-use pullback_compiler::{Picture, Program, SceneModule};
-use pullback_runtime::{View, settings};
+use pullback_compiler::{Picture, Program, SettingValue};
 
 use super::failure::Failure;
 use super::spelling;
@@ -49,78 +48,26 @@ impl FromStr for Assignment {
     }
 }
 
-/// What a picture depends on besides its formula.
-#[derive(Clone, Debug)]
-pub(super) struct Situation {
-    pub(super) view: View,
-    /// Bytes of the settings.
-    pub(super) settings: Vec<u8>,
-}
-
-impl Situation {
-    /// What the program says.
-    pub(super) fn new(scene: &SceneModule) -> Self {
-        Self {
-            view: View {
-                center: scene.view.center,
-                height: 2.0 * scene.view.half_height,
-            },
-            settings: scene.settings.clone(),
-        }
-    }
-
-    fn set(
-        &mut self,
-        spec: &SettingSpec,
-        value: &Value,
-        scene: &SceneModule,
-    ) -> Result<(), Failure> {
-        let numbers = components(spec, value).map_err(Failure::usage)?;
-        match (spec.is_view(), spec.kind, &numbers[..]) {
-            (true, SettingKind::Vec2, &[x, y]) => self.view.center = [x, y],
-            (true, _, &[height]) => self.view.height = height,
-            _ => {
-                // A setting that the shader does not read changes nothing.
-                let slots = settings::slots(&scene.module);
-                if let Some(slot) = slots.iter().find(|slot| slot.name == spec.name)
-                    && !slot.write(&mut self.settings, &numbers)
-                {
-                    return Err(Failure::usage(format!(
-                        "setting `{}` takes {} numbers",
-                        spec.name, slot.components
-                    )));
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-/// The program's parameters and the picture's situation after all assignments.
+/// The program's parameters and the picture's settings after all assignments.
 pub(super) fn for_picture(
     assignments: &[Assignment],
     program: &Program,
     picture: &Picture,
-    scene: &SceneModule,
-) -> Result<(Vec<f64>, Situation), Failure> {
+) -> Result<(Vec<f64>, Vec<SettingValue>), Failure> {
     let mut params = defaults(program);
-    let mut situation = Situation::new(scene);
+    let mut settings = picture.settings.clone();
     for assignment in assignments {
         if set_parameter(assignment, program, &mut params)? {
             continue;
         }
-        let Some(spec) = picture.scene.setting(&assignment.name) else {
-            let settings = picture.scene.settings.iter().map(|spec| spec.name);
-            return Err(unknown(
-                "parameter or setting",
-                &assignment.name,
-                program,
-                settings,
-            ));
+        let name = assignment.name.as_str();
+        let Some(setting) = settings.iter_mut().find(|s| s.spec.name == name) else {
+            let names = picture.scene.settings.iter().map(|spec| spec.name);
+            return Err(unknown("parameter or setting", name, program, names));
         };
-        situation.set(spec, &assignment.value, scene)?;
+        setting.value = components(setting.spec, &assignment.value).map_err(Failure::usage)?;
     }
-    Ok((params, situation))
+    Ok((params, settings))
 }
 
 /// The program's parameters after all assignments.
@@ -166,8 +113,8 @@ fn set_parameter(
     Ok(true)
 }
 
-/// The components of a setting's value.
-fn components(spec: &SettingSpec, value: &Value) -> Result<Vec<f64>, String> {
+/// The components of a setting's value, zero beyond them.
+fn components(spec: &SettingSpec, value: &Value) -> Result<[f64; 3], String> {
     let name = spec.name;
     let size = match spec.kind {
         SettingKind::Choice(words) => {
@@ -178,7 +125,7 @@ fn components(spec: &SettingSpec, value: &Value) -> Result<Vec<f64>, String> {
             let place = place
                 .and_then(|place| u32::try_from(place).ok())
                 .ok_or_else(|| format!("`{name}` is one of {}", words.join(", ")))?;
-            return Ok(vec![f64::from(place)]);
+            return Ok([f64::from(place); 3]);
         }
         SettingKind::Real | SettingKind::Integer => 1,
         SettingKind::Vec2 => 2,
@@ -190,8 +137,9 @@ fn components(spec: &SettingSpec, value: &Value) -> Result<Vec<f64>, String> {
     };
     let numbers = match numbers[..] {
         // One number stands for three equal ones, as in the language.
-        [all] if size == 3 => vec![all; 3],
-        _ if numbers.len() == size => numbers,
+        [all] if size != 2 => [all; 3],
+        [x, y] if size == 2 => [x, y, 0.0],
+        [x, y, z] if size == 3 => [x, y, z],
         _ => {
             return Err(format!(
                 "`{name}` takes {size} number{}, not {}",
@@ -203,7 +151,7 @@ fn components(spec: &SettingSpec, value: &Value) -> Result<Vec<f64>, String> {
     if !numbers.iter().all(|number| number.is_finite()) {
         return Err(format!("`{name}` takes finite numbers"));
     }
-    spec.check(&numbers)?;
+    spec.check(&numbers[..size])?;
     Ok(numbers)
 }
 
@@ -248,17 +196,17 @@ mod tests {
 
     #[test]
     fn values_of_settings() {
-        let check = |spec: &SettingSpec, text: &str, expected: Result<&[f64], &str>| {
+        let check = |spec: &SettingSpec, text: &str, expected: Result<[f64; 3], &str>| {
             let value = format!("s={text}").parse::<Assignment>().unwrap().value;
             let found = components(spec, &value);
             match (&found, expected) {
-                (Ok(found), Ok(expected)) => assert_eq!(found, expected, "{text}"),
+                (Ok(found), Ok(expected)) => assert_eq!(*found, expected, "{text}"),
                 (Err(found), Err(expected)) => assert!(found.contains(expected), "{found}"),
                 _ => panic!("{text}: {found:?}"),
             }
         };
         let real = SettingSpec::real("gain", 1.0, (0.0, 4.0), "");
-        check(&real, "2", Ok(&[2.0]));
+        check(&real, "2", Ok([2.0; 3]));
         check(&real, "5", Err("between"));
         check(&real, "nan", Err("finite"));
         check(&real, "1,2", Err("takes 1 number, not 2"));
@@ -266,11 +214,11 @@ mod tests {
         let whole = SettingSpec::integer("steps", 1.0, (0.0, 4.0), "");
         check(&whole, "1.5", Err("whole"));
         let ink = SettingSpec::colour("ink", [0.0; 3], "");
-        check(&ink, "0.5", Ok(&[0.5; 3]));
-        check(&ink, "0,1,0", Ok(&[0.0, 1.0, 0.0]));
+        check(&ink, "0.5", Ok([0.5; 3]));
+        check(&ink, "0,1,0", Ok([0.0, 1.0, 0.0]));
         check(&ink, "0,1", Err("takes 3 numbers, not 2"));
         let palette = SettingSpec::choice("palette", &["light", "dark"], 0.0, "");
-        check(&palette, "dark", Ok(&[1.0]));
+        check(&palette, "dark", Ok([1.0; 3]));
         check(&palette, "1", Err("one of light, dark"));
     }
 }

@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use pullback_compiler::scene::{SettingKind, SettingSpec};
-use pullback_compiler::{Picture, SceneModule};
+use pullback_compiler::scene::{SettingKind, Space};
+use pullback_compiler::{Picture, SettingValue};
 use pullback_runtime::render::{MAX_SAMPLES, MAX_SIDE};
-use pullback_runtime::{Frame, Gpu, Metadata, Pipeline, Renderer, Size, image_file};
+use pullback_runtime::{Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, image_file};
 
 use super::failure::Failure;
 use super::progress::{Counted, Progress};
 use super::source::Source;
-use super::{Console, Device, Input, Output, Settings, overrides};
+use super::{Console, Device, Input, Numbers, Output, Settings, Which, overrides};
 
 /// Arguments of `pullback render`.
 #[derive(Debug, Args)]
@@ -31,7 +31,7 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     center: Option<[f64; 2]>,
     /// Height of the view in world units
-    #[arg(long, value_name = "H", value_parser = positive)]
+    #[arg(long, value_name = "H", value_parser = positive, allow_hyphen_values = true)]
     height: Option<f64>,
     #[command(flatten)]
     settings: Settings,
@@ -40,9 +40,10 @@ pub(super) struct RenderArguments {
     /// The shader stage that computes the pixels
     #[arg(long, value_enum, default_value_t = Stage::Compute)]
     pipeline: Stage,
-    /// Which `show` of the program to draw, from 1
-    #[arg(long, value_name = "N")]
-    show: Option<usize>,
+    #[command(flatten)]
+    which: Which,
+    #[command(flatten)]
+    numbers: Numbers,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -54,17 +55,17 @@ enum Stage {
 /// Draws the picture and writes it.
 pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), Failure> {
     let source = Source::open(&arguments.input, console)?;
-    let index = picture(arguments.show, &source, console)?;
-    let scene = source.expect(source.program.scene_module(index), console)?;
+    let index = source.picture(arguments.which, console)?;
     let picture = &source.program.pictures()[index];
-    let (params, mut situation) =
-        overrides::for_picture(&arguments.settings.set, &source.program, picture, &scene)?;
-    situation.view.center = arguments.center.unwrap_or(situation.view.center);
-    situation.view.height = arguments.height.unwrap_or(situation.view.height);
+    let (params, settings) =
+        overrides::for_picture(&arguments.settings.set, &source.program, picture)?;
+    let precision = arguments.numbers.into();
+    let scene = source.expect(source.program.scene_module(index, precision), console)?;
+    let bytes = scene.pack_settings(&settings);
     let frame = Frame {
-        view: situation.view,
+        view: view(arguments, picture, &settings)?,
         params: &params,
-        settings: &situation.settings,
+        settings: &bytes,
         size: arguments.size,
         samples: arguments.samples,
         time: arguments.settings.time,
@@ -75,7 +76,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     };
     let gpu = Gpu::open(&arguments.device.adapter)?;
     console.note(&format!("adapter: {}", gpu.adapter()));
-    let metadata = metadata(&source, picture, &scene, &frame, &gpu);
+    let metadata = metadata(&source, picture, &settings, &frame, &gpu);
     let path = arguments
         .output
         .output
@@ -103,37 +104,46 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     Ok(())
 }
 
-/// Index of the picture to draw.
-fn picture(show: Option<usize>, source: &Source, console: &Console) -> Result<usize, Failure> {
-    let count = source.program.pictures().len();
-    if count == 0 {
-        return Err(Failure::usage_hint(
-            "this program has no picture",
-            "add `show SCENE(f)`; `pullback scenes` lists the scenes",
-        ));
-    }
-    match show {
-        None => {
-            if count > 1 {
-                console.note(&format!(
-                    "drawing the first of {count} pictures; choose with --show"
-                ));
-            }
-            Ok(0)
+/// What is seen: of a plane by the options, then by the settings; scenes of space have a camera in their settings.
+fn view(
+    arguments: &RenderArguments,
+    picture: &Picture,
+    settings: &[SettingValue],
+) -> Result<View, Failure> {
+    if picture.scene.space == Space::Space {
+        if arguments.center.is_some() || arguments.height.is_some() {
+            return Err(Failure::usage_hint(
+                format!(
+                    "scene `{}` has no plane to be looked at",
+                    picture.scene.name
+                ),
+                "move its camera with --set; `pullback scenes` lists its settings",
+            ));
         }
-        Some(n) if (1..=count).contains(&n) => Ok(n - 1),
-        Some(n) => Err(Failure::usage(format!(
-            "--show {n}: this program has {count} picture{}",
-            if count == 1 { "" } else { "s" }
-        ))),
+        return Ok(View {
+            center: [0.0, 0.0],
+            height: 2.0,
+        });
     }
+    let setting = |name| {
+        settings
+            .iter()
+            .find(|s| s.spec.name == name)
+            .map(|s| s.value)
+    };
+    let [x, y, _] = setting("center").unwrap_or_default();
+    let [height, ..] = setting("height").unwrap_or([2.0; 3]);
+    Ok(View {
+        center: arguments.center.unwrap_or([x, y]),
+        height: arguments.height.unwrap_or(height),
+    })
 }
 
 /// How the picture came about, without names of files.
 fn metadata(
     source: &Source,
     picture: &Picture,
-    scene: &SceneModule,
+    settings: &[SettingValue],
     frame: &Frame,
     gpu: &Gpu,
 ) -> Metadata {
@@ -146,14 +156,10 @@ fn metadata(
         .zip(frame.params)
         .map(|(param, value)| format!("{} = {value}", param.name))
         .collect();
-    let settings: Vec<String> = pullback_runtime::settings::slots(&scene.module)
+    let settings: Vec<String> = settings
         .iter()
-        .filter_map(|slot| {
-            // The shader's structure may have members that only fill it up.
-            let spec = picture.scene.setting(&slot.name)?;
-            let values = slot.read(frame.settings)?;
-            Some(format!("{} = {}", slot.name, setting(spec, &values)))
-        })
+        .filter(|setting| !(setting.spec.is_view() && picture.scene.space != Space::Space))
+        .map(|setting| format!("{} = {}", setting.spec.name, written(setting)))
         .collect();
     Metadata(vec![
         (
@@ -176,16 +182,13 @@ fn metadata(
 }
 
 /// A setting's value as one writes it.
-fn setting(spec: &SettingSpec, values: &[f64]) -> String {
-    if let SettingKind::Choice(words) = spec.kind
-        && let Some(word) = values.first().and_then(|&place| words.get(place as usize))
-    {
-        return (*word).to_owned();
-    }
-    let values: Vec<String> = values.iter().map(f64::to_string).collect();
-    match &values[..] {
-        [one] => one.clone(),
-        _ => format!("({})", values.join(", ")),
+pub(super) fn written(setting: &SettingValue) -> String {
+    let [x, y, z] = setting.value;
+    match setting.spec.kind {
+        SettingKind::Real | SettingKind::Integer => x.to_string(),
+        SettingKind::Vec2 => format!("({x}, {y})"),
+        SettingKind::Vec3 => format!("({x}, {y}, {z})"),
+        SettingKind::Choice(words) => (*words.get(x as usize).unwrap_or(&"")).to_owned(),
     }
 }
 

@@ -3,9 +3,11 @@
 use std::io::{self, BufWriter, Write};
 
 use clap::Args;
+use pullback_compiler::SettingValue;
 use pullback_compiler::scene::{SettingKind, SettingSpec, scenes};
 
 use super::failure::Failure;
+use super::render;
 
 /// Arguments of `pullback scenes`.
 #[derive(Debug, Args)]
@@ -52,14 +54,11 @@ fn list(output: &mut dyn Write, markdown: bool) -> io::Result<()> {
     Ok(())
 }
 
-fn default(spec: &SettingSpec) -> String {
-    let [x, y, z] = spec.default;
-    match spec.kind {
-        SettingKind::Real | SettingKind::Integer => x.to_string(),
-        SettingKind::Vec2 => format!("({x}, {y})"),
-        SettingKind::Vec3 => format!("({x}, {y}, {z})"),
-        SettingKind::Choice(words) => words.get(x as usize).unwrap_or(&"").to_string(),
-    }
+fn default(spec: &'static SettingSpec) -> String {
+    render::written(&SettingValue {
+        spec,
+        value: spec.default,
+    })
 }
 
 /// What a setting may be, in words.

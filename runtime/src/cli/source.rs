@@ -10,7 +10,7 @@ use pullback_grammar::Diagnostic;
 use pullback_grammar::ast::MAX_SOURCE_BYTES;
 
 use super::failure::Failure;
-use super::{Console, Input};
+use super::{Console, Input, Which};
 
 /// A program and the text that it comes from.
 pub(super) struct Source {
@@ -45,6 +45,26 @@ impl Source {
                 warnings: compilation.diagnostics.len(),
             }),
             _ => Err(Failure::Program),
+        }
+    }
+
+    /// Index of the picture that is meant; the first if none is named.
+    pub(super) fn picture(&self, which: Which, console: &Console) -> Result<usize, Failure> {
+        let count = self.program.pictures().len();
+        match which.show {
+            None => {
+                if count > 1 {
+                    console.note(&format!(
+                        "taking the first of {count} pictures; choose with --show"
+                    ));
+                }
+                Ok(0)
+            }
+            Some(n) if (1..=count).contains(&n) => Ok(n - 1),
+            Some(n) => Err(Failure::usage(format!(
+                "--show {n}: this program has {count} picture{}",
+                if count == 1 { "" } else { "s" }
+            ))),
         }
     }
 
@@ -96,9 +116,12 @@ fn read(input: &OsStr) -> Result<(String, String, Vec<u8>), Failure> {
     ))
 }
 
-/// Whether an argument names a file: it exists, or says that it should.
+/// Whether an argument names a file: it exists, or says that it should. A folder counts if it is written like one,
+/// because `e` may be a folder here and is a formula.
 fn is_file(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending == "pull") || path.is_file()
+    path.extension().is_some_and(|ending| ending == "pull")
+        || path.is_file()
+        || (path.is_dir() && path.components().count() > 1)
 }
 
 /// No more than shows the compiler that it is too much.

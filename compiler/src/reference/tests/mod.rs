@@ -1,4 +1,5 @@
-//! The reference against the 60-digit tables and against Annex G.
+//! The reference against the 60-digit tables and against Annex G; the shader library through naga.
 
 mod oracle;
+mod shaders;
 mod special;

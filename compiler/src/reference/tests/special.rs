@@ -250,6 +250,29 @@ fn powers() {
 }
 
 #[test]
+fn general_powers_agree_with_their_definition() {
+    for (x, y) in [
+        (0.3, 2.0),
+        (2.0, 0.3),
+        (-0.3, 2.0),
+        (-2.0, 0.3),
+        (-2.0, -0.3),
+        (0.3, -2.0),
+        (1.0, 1.0),
+    ] {
+        for w in [c(0.5, 0.0), c(2.5, -1.5), c(-1.25, 3.0), c(0.0, 1.0)] {
+            let (got, want) = (c(x, y).pow(w), (w * c(x, y).log()).exp());
+            assert!(
+                (got - want).abs() < 1e-14 * want.abs(),
+                "({x}, {y})^{w:?} = {got:?}, not {want:?}"
+            );
+        }
+    }
+    assert_eq!(c(-4.0, 0.0).pow(c(0.5, 0.0)), c(0.0, 2.0));
+    assert_eq!(c(-4.0, -0.0).pow(c(1.5, 0.0)).re, 0.0);
+}
+
+#[test]
 fn real_special_values() {
     assert_eq!(real::fract(-1e-30), 1.0 - f64::EPSILON / 2.0);
     assert_eq!(real::modulo(-1e-30, 2.0), 2.0 - f64::EPSILON);

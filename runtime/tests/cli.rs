@@ -1,0 +1,249 @@
+//! The command line as a user meets it: exit codes, outputs, messages.
+
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+/// Runs `pullback` in `folder` with `input` on its standard input.
+fn run(folder: &Path, arguments: &[&str], input: &str) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_pullback"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // A command that does not read its input closes it.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+/// Exit code, standard output and standard error.
+fn pullback(arguments: &[&str], input: &str) -> (i32, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run(folder.path(), arguments, input);
+    (
+        output.status.code().unwrap(),
+        String::from_utf8(output.stdout).unwrap(),
+        String::from_utf8(output.stderr).unwrap(),
+    )
+}
+
+/// Whether tests that need an adapter can run.
+fn has_adapter() -> bool {
+    let choice = pullback_runtime::AdapterChoice::Software;
+    pullback_runtime::Gpu::open(&choice).is_ok()
+}
+
+#[test]
+fn exit_codes_and_messages() {
+    let check = |arguments: &[&str], code: i32, message: &str| {
+        let (found, _, errors) = pullback(arguments, "");
+        assert_eq!(found, code, "{arguments:?}: {errors}");
+        assert!(errors.contains(message), "{arguments:?}: {errors}");
+    };
+    check(&["check", "sin(x) + y"], 0, "");
+    check(&["check", "sin(x"], 1, "missing");
+    check(&["render", "foo(x)"], 1, "foo");
+    check(&["render"], 2, "FILE|FORMULA");
+    check(&["render", "x", "--sixe", "3x3"], 2, "'--size'");
+    check(&["render", "x", "--size", "0x3"], 2, "1 to 16384");
+    check(&["render", "x", "--samples", "17"], 2, "1..=16");
+    check(&["render", "x", "--height", "-1"], 2, "positive");
+    check(
+        &["render", "x", "--set", "heigth=2"],
+        2,
+        "did you mean `height`?",
+    );
+    check(&["render", "x", "--set", "k"], 2, "NAME=VALUE");
+    check(&["render", "x", "--show", "2"], 2, "1 picture");
+    check(&["render", "x y z", "--height", "2"], 2, "camera");
+    check(&["eval", "x y"], 2, "--points");
+    check(&["eval", "3", "--points", "-"], 2, "no arguments");
+    check(&["eval", "-", "--points", "-"], 2, "both");
+    check(
+        &["render", "x", "--adapter", "no such adapter"],
+        3,
+        "no such adapter",
+    );
+    check(&["check", "missing.pull"], 4, "missing.pull: no such file");
+    check(
+        &["eval", "x y", "--on", "reference", "--points", "missing"],
+        4,
+        "missing: no such",
+    );
+}
+
+#[test]
+fn values_by_the_reference() {
+    let check = |arguments: &[&str], input: &str, expected: &str| {
+        let arguments = [arguments, &["--on", "reference"]].concat();
+        let (code, text, errors) = pullback(&arguments, input);
+        assert_eq!(
+            (code, text.as_str()),
+            (0, expected),
+            "{arguments:?}: {errors}"
+        );
+    };
+    check(&["eval", "1/3"], "", "0.3333333333333333\n");
+    check(&["eval", "-2^2"], "", "-4\n");
+    check(
+        &["eval", "x y", "--points", "-"],
+        "1 2\n\n# no\n3\t4 # yes\n",
+        "2\n12\n",
+    );
+    check(
+        &["eval", "x/y", "--points", "-"],
+        "1 0\n-1 0\n0 0\ninf 1\n",
+        "inf\n-inf\nnan\ninf\n",
+    );
+    check(
+        &["eval", "x y", "--points", "-", "--what", "gradient"],
+        "3 4",
+        "12\t4\t3\n",
+    );
+    check(
+        &["eval", "z^2", "--points", "-", "--what", "derivative"],
+        "1 2",
+        "-3\t4\t2\t4\n",
+    );
+    check(&["eval", "param k = 2\nk", "--set", "k=5"], "", "5\n");
+    check(&["eval", "time", "--time", "-1.5"], "", "-1.5\n");
+    check(&["eval", "-"], "7", "7\n");
+    check(&["eval", "x y", "--points", "-"], "", "");
+}
+
+#[test]
+fn bad_rows_are_all_told() {
+    let arguments = ["eval", "x y", "--on", "reference", "--points", "-"];
+    let (code, text, errors) = pullback(&arguments, "1 2\n3 z\n4\n1 2 3\n5 6\n");
+    assert_eq!((code, text.as_str()), (4, ""));
+    for problem in [
+        "line 2, column 3: `z` is not a number",
+        "line 3, column 2: 2 numbers expected, but the row ends after 1",
+        "line 4, column 5: more than 2 numbers",
+    ] {
+        assert!(errors.contains(problem), "{errors}");
+    }
+    let (_, _, errors) = pullback(&arguments, &"x\n".repeat(1000));
+    assert_eq!(
+        errors
+            .lines()
+            .filter(|line| line.contains("column"))
+            .count(),
+        20
+    );
+}
+
+#[test]
+fn files_and_formulas_are_told_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("seven.pull"), "3 + 4").unwrap();
+    std::fs::write(folder.path().join("eight"), "3 + 5").unwrap();
+    std::fs::write(folder.path().join("bad.pull"), b"\xff\xfe").unwrap();
+    std::fs::create_dir(folder.path().join("e")).unwrap();
+    let value = |input: &str| {
+        let output = run(folder.path(), &["eval", input, "--on", "reference"], "");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert_eq!(value("seven.pull"), "7\n");
+    assert_eq!(value("eight"), "8\n");
+    assert_eq!(value("e"), "2.718281828459045\n");
+    let bad = run(folder.path(), &["check", "bad.pull"], "");
+    assert_eq!(bad.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&bad.stderr).contains("UTF-8"));
+}
+
+#[test]
+fn shaders_in_every_language() {
+    for target in ["wgsl", "glsl", "hlsl", "msl", "spirv"] {
+        for what in ["value", "gradient", "scene"] {
+            let folder = tempfile::tempdir().unwrap();
+            let arguments = [
+                "emit", "x^2 - y", "--target", target, "--what", what, "-o", "out",
+            ];
+            let output = run(folder.path(), &arguments, "");
+            assert_eq!(output.status.code(), Some(0), "{target} {what}");
+            assert!(std::fs::metadata(folder.path().join("out")).unwrap().len() > 50);
+        }
+    }
+}
+
+#[test]
+fn lists() {
+    let check = |arguments: &[&str], part: &str| {
+        let (code, text, _) = pullback(arguments, "");
+        assert_eq!(code, 0);
+        assert!(text.contains(part), "{text}");
+    };
+    check(&["functions"], "sin(a)");
+    check(&["functions", "--markdown"], "| `sin(a)` |");
+    check(&["scenes"], "levels:");
+    check(&["scenes", "--markdown"], "## levels");
+    check(&["--help"], "Exit codes:");
+    check(&["render", "--help"], "Exit codes:");
+}
+
+#[test]
+fn pictures() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let draw = |arguments: &[&str]| {
+        let all = [
+            &[
+                "render",
+                "x^2 + y^2",
+                "--adapter",
+                "software",
+                "--size",
+                "50x40",
+            ],
+            arguments,
+        ];
+        let output = run(folder.path(), &all.concat(), "");
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{errors}");
+        (output.stdout, errors)
+    };
+    let (_, errors) = draw(&["-o", "a.png"]);
+    assert!(
+        errors.contains("adapter: ") && errors.contains("software"),
+        "{errors}"
+    );
+    let file = std::fs::read(folder.path().join("a.png")).unwrap();
+    let (compute, _) = draw(&["-o", "-"]);
+    let (fragment, _) = draw(&["-o", "-", "--pipeline", "fragment"]);
+    assert_eq!(file, compute);
+    assert_eq!(compute, fragment);
+    let (moved, errors) = draw(&["-q", "-o", "-", "--center", "-1,2", "--set", "height=3"]);
+    assert_ne!(moved, compute);
+    assert_eq!(errors, "");
+    draw(&[]);
+    assert!(folder.path().join("pullback.png").exists());
+    let entries = std::fs::read_dir(folder.path()).unwrap().count();
+    assert_eq!(entries, 2, "nothing else is left behind");
+}
+
+#[test]
+fn a_closed_pipe_is_no_error() {
+    if !cfg!(unix) {
+        return;
+    }
+    let mut child = Command::new(env!("CARGO_BIN_EXE_pullback"))
+        .args(["eval", "x y", "--on", "reference", "--points", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let rows = "1 2\n".repeat(300_000);
+    // The command may end before it has read everything.
+    let _ = child.stdin.take().unwrap().write_all(rows.as_bytes());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.is_empty());
+}
