@@ -60,3 +60,38 @@ fn every_wrong_program_gives_its_diagnostics() {
         failures.join("\n")
     );
 }
+
+/// Rendered as the command line shows them, without colour.
+fn rendered(text: &str) -> String {
+    pullback_grammar::render(&compile(text).diagnostics, "picture.pull", text, false)
+}
+
+fn of_corpus(name: &str) -> String {
+    let cases = wrong_programs();
+    let case = cases.iter().find(|c| c.name == name).unwrap_or_else(|| panic!("no case {name}"));
+    rendered(&case.text)
+}
+
+#[test]
+fn diagnostics_read_well() {
+    let names = [
+        "unknown-function-sine",
+        "several-stages",
+        "ambiguous-division",
+        "missing-closing-call",
+        "duplicate-function",
+        "recursion-of-three",
+        "comparison-of-complex-chained",
+        "levels-of-space-function",
+        "param-outside-its-range",
+        "setting-needs-vector",
+        "stray-character-question",
+        "unmatched-closing-crossed",
+        "complex-argument-of-real-parameter",
+        "formal-without-comma",
+        "empty-file",
+        "where-local-before-definition",
+    ];
+    let shown: Vec<String> = names.iter().map(|n| format!("=== {n}\n{}", of_corpus(n))).collect();
+    insta::assert_snapshot!(shown.join("\n"));
+}
