@@ -6,8 +6,8 @@ use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::check::{
-    Builder, Symbols, Value, check_names, free_variables, is_builtin_function, nearest, not_constant,
-    quoted, shortened, signature,
+    Builder, Symbols, Value, check_names, free_variables, is_builtin_function, nearest,
+    not_constant, quoted, shortened, signature,
 };
 use crate::formula::{Formula, Input, argument_value, scalar_types};
 use crate::ir::{Graph, Id};
@@ -51,7 +51,10 @@ impl Picture {
     /// The value of a setting.
     #[must_use]
     pub fn setting(&self, name: &str) -> Option<[f64; 3]> {
-        self.settings.iter().find(|s| s.spec.name == name).map(|s| s.value)
+        self.settings
+            .iter()
+            .find(|s| s.spec.name == name)
+            .map(|s| s.value)
     }
 }
 
@@ -104,8 +107,12 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
     let file = &parsed.file;
     let symbols = Symbols::collect(file, &mut diagnostics);
     check_names(file, &symbols, &mut diagnostics);
-    let mut checker =
-        Checker { file, symbols: &symbols, diagnostics, called: FxHashSet::default() };
+    let mut checker = Checker {
+        file,
+        symbols: &symbols,
+        diagnostics,
+        called: FxHashSet::default(),
+    };
     let params = checker.params();
     let pictures = checker.pictures();
     checker.unused_functions();
@@ -113,8 +120,12 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
     let failed = diagnostics.iter().any(Diagnostic::is_error);
     if !failed && pictures.is_empty() {
         diagnostics.push(
-            Diagnostic::error("internal-silent", Span::default(), "the program cannot be shown")
-                .with_hint("this is a mistake in pullback; please report the program"),
+            Diagnostic::error(
+                "internal-silent",
+                Span::default(),
+                "the program cannot be shown",
+            )
+            .with_hint("this is a mistake in pullback; please report the program"),
         );
     }
     diagnostics.sort_by(|a, b| {
@@ -123,12 +134,20 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
     diagnostics.dedup_by(|a, b| a.span == b.span && a.code == b.code && a.message == b.message);
     pullback_grammar::diagnostic::limit(&mut diagnostics);
     let program = (!failed && !pictures.is_empty()).then_some(Program { params, pictures });
-    Compilation { program, diagnostics }
+    Compilation {
+        program,
+        diagnostics,
+    }
 }
 
 /// Types that are tried for the parameters of a function that nothing calls.
-const GENERIC: [Type; 5] =
-    [Type::Real, Type::Complex, Type::Vector(2), Type::Vector(3), Type::Vector(4)];
+const GENERIC: [Type; 5] = [
+    Type::Real,
+    Type::Complex,
+    Type::Vector(2),
+    Type::Vector(3),
+    Type::Vector(4),
+];
 
 /// Greatest number of times that such functions are built, all together.
 const MAX_ATTEMPTS: usize = 2000;
@@ -176,7 +195,9 @@ impl<'a> Checker<'a> {
     }
 
     fn param(&mut self, param: &'a Param) -> ParamInfo {
-        let default = self.constant(param.default, "the default of a parameter").unwrap_or(0.0);
+        let default = self
+            .constant(param.default, "the default of a parameter")
+            .unwrap_or(0.0);
         let reach = default.abs().max(1.0);
         let (mut lo, mut hi) = (default - reach, default + reach);
         if let Some((from, to)) = param.range {
@@ -201,11 +222,20 @@ impl<'a> Checker<'a> {
                         format!("the default {default} is not in {lo}..{hi}"),
                     )
                     .with_related(span, "the range")
-                    .with_hint(format!("write {}..{} to include it", lo.min(default), hi.max(default))),
+                    .with_hint(format!(
+                        "write {}..{} to include it",
+                        lo.min(default),
+                        hi.max(default)
+                    )),
                 );
             }
         }
-        ParamInfo { name: param.name.text.clone(), default, lo, hi }
+        ParamInfo {
+            name: param.name.text.clone(),
+            default,
+            lo,
+            hi,
+        }
     }
 
     /// The value of a real constant expression; reports one that is not.
@@ -249,8 +279,12 @@ impl<'a> Checker<'a> {
             Some(x) if x.is_finite() => Some(x),
             Some(x) => {
                 self.diagnostics.push(
-                    Diagnostic::error("not-finite", span, format!("{what} is {}", infinity_or_nan(x)))
-                        .with_hint("write a finite number"),
+                    Diagnostic::error(
+                        "not-finite",
+                        span,
+                        format!("{what} is {}", infinity_or_nan(x)),
+                    )
+                    .with_hint("write a finite number"),
                 );
                 None
             }
@@ -277,7 +311,10 @@ impl<'a> Checker<'a> {
         if shows.is_empty() {
             return self.default_picture().into_iter().collect();
         }
-        shows.into_iter().filter_map(|show| self.picture(show)).collect()
+        shows
+            .into_iter()
+            .filter_map(|show| self.picture(show))
+            .collect()
     }
 
     /// At most one bare formula can be meant.
@@ -314,8 +351,12 @@ impl<'a> Checker<'a> {
         let Some(subject) = formula.or(named.or(last).map(Subject::Function)) else {
             if !self.diagnostics.iter().any(Diagnostic::is_error) {
                 self.diagnostics.push(
-                    Diagnostic::error("nothing-to-show", Span::default(), "there is no formula to show")
-                        .with_hint("write one, such as sin(x^2 + y^2)"),
+                    Diagnostic::error(
+                        "nothing-to-show",
+                        Span::default(),
+                        "there is no formula to show",
+                    )
+                    .with_hint("write one, such as sin(x^2 + y^2)"),
                 );
             }
             return None;
@@ -329,7 +370,11 @@ impl<'a> Checker<'a> {
         }
         let scene = default_scene(space);
         let formula = self.check_result(scene, &formula, subject, span)?;
-        Some(Picture { scene, settings: default_settings(scene), formula })
+        Some(Picture {
+            scene,
+            settings: default_settings(scene),
+            formula,
+        })
     }
 
     fn subject_span(&self, subject: Subject) -> Span {
@@ -365,8 +410,10 @@ impl<'a> Checker<'a> {
     fn unused_function(&mut self, function: &'a Function, attempts: &mut usize) {
         let declared = declared(function);
         let is_plain_z = matches!(declared.as_slice(), [("z", None)]);
-        let fixed: Vec<Option<Type>> =
-            declared.iter().map(|d| d.1.or(is_plain_z.then_some(Type::Complex))).collect();
+        let fixed: Vec<Option<Type>> = declared
+            .iter()
+            .map(|d| d.1.or(is_plain_z.then_some(Type::Complex)))
+            .collect();
         let open = fixed.iter().filter(|t| t.is_none()).count();
         if open > 2 {
             return;
@@ -379,8 +426,10 @@ impl<'a> Checker<'a> {
                 }
                 *attempts -= 1;
                 let mut choices = [first, second].into_iter();
-                let types: Vec<Type> =
-                    fixed.iter().map(|t| t.or_else(|| choices.next()).unwrap_or(first)).collect();
+                let types: Vec<Type> = fixed
+                    .iter()
+                    .map(|t| t.or_else(|| choices.next()).unwrap_or(first))
+                    .collect();
                 let mut builder = self.attempt(function, &types);
                 if builder.graph.budget().is_err() {
                     return;
@@ -450,7 +499,10 @@ impl<'a> Checker<'a> {
                 function.params[0].name.span,
                 format!("what {} is cannot be told", quoted(name)),
             )
-            .with_hint(format!("write `{0}: complex`, `{0}: vec2` or `{0}: vec3`", shortened(name))),
+            .with_hint(format!(
+                "write `{0}: complex`, `{0}: vec2` or `{0}: vec3`",
+                shortened(name)
+            )),
             _ => Diagnostic::error(
                 "no-scene",
                 function.name.span,
@@ -475,10 +527,11 @@ impl<'a> Checker<'a> {
                 show.scene.span,
                 format!("unknown scene {}", quoted(&show.scene.text)),
             );
-            self.diagnostics.push(match nearest(&show.scene.text, names) {
-                Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
-                None => problem.with_hint(format!("scenes are {}", list.join(", "))),
-            });
+            self.diagnostics
+                .push(match nearest(&show.scene.text, names) {
+                    Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
+                    None => problem.with_hint(format!("scenes are {}", list.join(", "))),
+                });
             return None;
         };
         let &[arg] = show.args.as_slice() else {
@@ -491,7 +544,11 @@ impl<'a> Checker<'a> {
                 Diagnostic::error(
                     "wrong-arity",
                     show.span,
-                    format!("`{}` shows one function, not {}", scene.name, show.args.len()),
+                    format!(
+                        "`{}` shows one function, not {}",
+                        scene.name,
+                        show.args.len()
+                    ),
                 )
                 .with_hint(format!("write show {}(f)", scene.name)),
             );
@@ -507,7 +564,12 @@ impl<'a> Checker<'a> {
         let span = self.file.exprs.span(arg);
         let formula = self.formula(subject, scene.space, span);
         let settings = self.settings_of(scene, show);
-        self.check_result(scene, &formula?, subject, span).map(|formula| Picture { scene, settings, formula })
+        self.check_result(scene, &formula?, subject, span)
+            .map(|formula| Picture {
+                scene,
+                settings,
+                formula,
+            })
     }
 
     fn check_result(
@@ -531,11 +593,18 @@ impl<'a> Checker<'a> {
         if self.has_error_in(whole) {
             return None;
         }
-        let wanted = if scene.space == Space::Complex { "a complex number" } else { "a real number" };
+        let wanted = if scene.space == Space::Complex {
+            "a complex number"
+        } else {
+            "a real number"
+        };
         let problem = Diagnostic::error(
             "wrong-result-type",
             span,
-            format!("`{}` shows {wanted}, but this is {}", scene.name, formula.ty),
+            format!(
+                "`{}` shows {wanted}, but this is {}",
+                scene.name, formula.ty
+            ),
         );
         self.diagnostics.push(match formula.ty {
             Type::Complex => problem.with_hint("show abs(f), re(f) or im(f), or use `domain`"),
@@ -580,7 +649,10 @@ impl<'a> Checker<'a> {
                 Diagnostic::error(
                     "too-large",
                     span,
-                    format!("the formula needs more than {} operations", Graph::MAX_NODES),
+                    format!(
+                        "the formula needs more than {} operations",
+                        Graph::MAX_NODES
+                    ),
                 )
                 .with_hint("functions that call others many times multiply; name what repeats"),
             );
@@ -590,13 +662,23 @@ impl<'a> Checker<'a> {
         let inputs = declared
             .iter()
             .zip(types)
-            .map(|((name, _), ty)| Input { name: (*name).to_owned(), ty })
+            .map(|((name, _), ty)| Input {
+                name: (*name).to_owned(),
+                ty,
+            })
             .collect();
         let name = match subject {
             Subject::Function(function) => function.name.text.clone(),
             Subject::Formula(_) => "f".to_owned(),
         };
-        Some(Formula { name, inputs, value: value.ids(), graph: builder.graph, ty, span })
+        Some(Formula {
+            name,
+            inputs,
+            value: value.ids(),
+            graph: builder.graph,
+            ty,
+            span,
+        })
     }
 
     /// Inputs of a bare formula: those of the space, or the vector p where it uses that.
@@ -612,14 +694,20 @@ impl<'a> Checker<'a> {
             Space::Complex => &["z"],
             Space::Space => &["x", "y", "z"],
         };
-        let names: &[&'a str] =
-            if free == ["p"] && space != Space::Complex { &["p"] } else { coordinates };
+        let names: &[&'a str] = if free == ["p"] && space != Space::Complex {
+            &["p"]
+        } else {
+            coordinates
+        };
         if let Some(stray) = free.iter().find(|n| !names.contains(n)) {
             self.diagnostics.push(
                 Diagnostic::error(
                     "unknown-name",
                     self.file.exprs.span(body),
-                    format!("`{stray}` is not an input here, those are {}", names.join(", ")),
+                    format!(
+                        "`{stray}` is not an input here, those are {}",
+                        names.join(", ")
+                    ),
                 )
                 .with_hint("name the inputs: f(x, y) = …, f(z) = … or f(x, y, z) = …"),
             );
@@ -642,10 +730,14 @@ impl<'a> Checker<'a> {
             Subject::Formula(_) => "f".to_owned(),
         };
         let header = format!("{name}({inputs}) = …");
-        let message = format!("`{}` shows a function of {wanted}", default_scene(space).name);
+        let message = format!(
+            "`{}` shows a function of {wanted}",
+            default_scene(space).name
+        );
         let problem = Diagnostic::error("wrong-inputs", span, message);
         let Subject::Function(function) = subject else {
-            self.diagnostics.push(problem.with_hint(format!("name the inputs: `{header}`")));
+            self.diagnostics
+                .push(problem.with_hint(format!("name the inputs: `{header}`")));
             return;
         };
         let declared = declared(function);
@@ -655,7 +747,10 @@ impl<'a> Checker<'a> {
         let hint = match fitting {
             Some(other) => {
                 let name = default_scene(other).name;
-                format!("write `show {name}({})`, or take the inputs: `{header}`", shortened(&function.name.text))
+                format!(
+                    "write `show {name}({})`, or take the inputs: `{header}`",
+                    shortened(&function.name.text)
+                )
             }
             None => format!("write `{header}`"),
         };
@@ -690,14 +785,20 @@ impl<'a> Checker<'a> {
                 continue;
             };
             if let Some(upper) = setting.upper {
-                let span = self.file.exprs.span(setting.value).join(self.file.exprs.span(upper));
+                let span = self
+                    .file
+                    .exprs
+                    .span(setting.value)
+                    .join(self.file.exprs.span(upper));
                 self.diagnostics.push(
                     Diagnostic::error("type-mismatch", span, format!("`{name}` is not a range"))
                         .with_hint("write one value"),
                 );
                 continue;
             }
-            let Some(value) = self.setting_value(spec, setting.value) else { continue };
+            let Some(value) = self.setting_value(spec, setting.value) else {
+                continue;
+            };
             if let Some(slot) = settings.iter_mut().find(|s| s.spec.name == name) {
                 slot.value = value;
             }
@@ -712,10 +813,11 @@ impl<'a> Checker<'a> {
             format!("`{}` has no setting {}", scene.name, quoted(&name.text)),
         );
         let names: Vec<&str> = scene.settings.iter().map(|s| s.name).collect();
-        self.diagnostics.push(match nearest(&name.text, names.iter().copied()) {
-            Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
-            None => problem.with_hint(format!("it has {}", names.join(", "))),
-        });
+        self.diagnostics
+            .push(match nearest(&name.text, names.iter().copied()) {
+                Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
+                None => problem.with_hint(format!("it has {}", names.join(", "))),
+            });
     }
 
     fn setting_value(&mut self, spec: &SettingSpec, expr: ExprId) -> Option<[f64; 3]> {
@@ -759,7 +861,10 @@ impl<'a> Checker<'a> {
                     format!("`{}` is {wanted}, found {found}", spec.name),
                 )
                 .with_label(format!("this is {found}"))
-                .with_hint(format!("write a {wanted}, such as `{} = {example}`", spec.name)),
+                .with_hint(format!(
+                    "write a {wanted}, such as `{} = {example}`",
+                    spec.name
+                )),
             );
             return None;
         }
@@ -787,8 +892,7 @@ impl<'a> Checker<'a> {
             Ok(()) => Some(out),
             Err(message) => {
                 self.diagnostics.push(
-                    Diagnostic::error("setting-out-of-range", span, message)
-                        .with_hint(spec.doc),
+                    Diagnostic::error("setting-out-of-range", span, message).with_hint(spec.doc),
                 );
                 None
             }
@@ -797,7 +901,11 @@ impl<'a> Checker<'a> {
 }
 
 fn infinity_or_nan(x: f64) -> &'static str {
-    if x.is_nan() { "not a number" } else { "infinite" }
+    if x.is_nan() {
+        "not a number"
+    } else {
+        "infinite"
+    }
 }
 
 /// Names and annotations of a function's parameters.
@@ -805,7 +913,12 @@ fn declared(function: &Function) -> Vec<(&str, Option<Type>)> {
     function
         .params
         .iter()
-        .map(|p| (p.name.text.as_str(), p.ty.as_ref().and_then(|t| Type::from_name(&t.text))))
+        .map(|p| {
+            (
+                p.name.text.as_str(),
+                p.ty.as_ref().and_then(|t| Type::from_name(&t.text)),
+            )
+        })
         .collect()
 }
 
@@ -830,5 +943,12 @@ fn input_types(space: Space, declared: &[(&str, Option<Type>)]) -> Option<Vec<Ty
 }
 
 fn default_settings(scene: &'static Scene) -> Vec<SettingValue> {
-    scene.settings.iter().map(|spec| SettingValue { spec, value: spec.default }).collect()
+    scene
+        .settings
+        .iter()
+        .map(|spec| SettingValue {
+            spec,
+            value: spec.default,
+        })
+        .collect()
 }

@@ -74,7 +74,8 @@ impl Graph {
     }
 
     fn is_real(&self, id: Id, value: f64) -> bool {
-        self.as_real(id).is_some_and(|v| v.to_bits() == value.to_bits())
+        self.as_real(id)
+            .is_some_and(|v| v.to_bits() == value.to_bits())
     }
 
     fn rewrite(&mut self, prim: Prim, args: &[Id]) -> Option<Id> {
@@ -190,7 +191,11 @@ impl Graph {
     fn rewrite_pow_int(&mut self, x: Id, n: i32) -> Option<Id> {
         match n {
             // x^0 = 1, NaN^0 = 1 (C99 F.9.4.4)
-            0 => Some(if self.ty(x) == Ty::Complex { self.complex(1.0, 0.0) } else { self.real(1.0) }),
+            0 => Some(if self.ty(x) == Ty::Complex {
+                self.complex(1.0, 0.0)
+            } else {
+                self.real(1.0)
+            }),
             // x^1 = x
             1 => Some(x),
             // x^-1 = 1/x

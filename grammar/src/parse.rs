@@ -2,10 +2,10 @@
 
 use crate::ast::{File, MAX_SOURCE_BYTES};
 use crate::cursor::Parser;
+use crate::diagnostic::limit;
 use crate::layout::layout;
 use crate::scope::Scope;
 use crate::token::tokenize;
-use crate::diagnostic::limit;
 use crate::{Diagnostic, Span};
 
 /// A syntax tree and every problem of its text.

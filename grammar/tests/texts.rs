@@ -170,10 +170,7 @@ fn many_problems_are_counted() {
     assert_eq!(parsed.diagnostics.len(), 201);
     let last = parsed.diagnostics.last().expect("a summary");
     assert_eq!(last.code, "too-many-problems");
-    assert_eq!(
-        last.message,
-        "there are more than 200 errors"
-    );
+    assert_eq!(last.message, "there are more than 200 errors");
 }
 
 #[test]

@@ -15,7 +15,9 @@ pub struct Source {
 /// The root of the workspace.
 #[must_use]
 pub fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_owned)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .map_or_else(PathBuf::new, Path::to_owned)
 }
 
 /// The files of a folder with an extension, by name.
@@ -30,7 +32,11 @@ pub fn files(folder: &str, extension: &str) -> Vec<Source> {
         .filter_map(|entry| Some(entry.ok()?.path()))
         .filter(|path| path.extension().is_some_and(|e| e == extension))
         .map(|path| Source {
-            name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+            name: path
+                .file_stem()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned(),
             text: read(&path),
         })
         .collect();
@@ -79,7 +85,10 @@ pub struct WrongProgram {
 /// The wrong programs of `tests/data/errors`; the format is described there.
 #[must_use]
 pub fn wrong_programs() -> Vec<WrongProgram> {
-    files("tests/data/errors", "pull").into_iter().map(wrong_program).collect()
+    files("tests/data/errors", "pull")
+        .into_iter()
+        .map(wrong_program)
+        .collect()
 }
 
 fn wrong_program(source: Source) -> WrongProgram {
@@ -93,14 +102,22 @@ fn wrong_program(source: Source) -> WrongProgram {
     });
     let expected: Vec<Expected> = expected.collect();
     assert!(!expected.is_empty(), "{}: nothing is expected", source.name);
-    WrongProgram { text: text.to_owned(), expected, name: source.name }
+    WrongProgram {
+        text: text.to_owned(),
+        expected,
+        name: source.name,
+    }
 }
 
 /// `//! CODE "spanned text" : part of the hint`
 fn parse_expected(line: &str) -> Option<Expected> {
     let (code, rest) = line.strip_prefix("//! ")?.split_once(" \"")?;
     let (spanned, hint) = rest.rsplit_once("\" :")?;
-    Some(Expected { code: code.into(), spanned: spanned.into(), hint: hint.trim().into() })
+    Some(Expected {
+        code: code.into(),
+        spanned: spanned.into(),
+        hint: hint.trim().into(),
+    })
 }
 
 /// A fenced block of a document.
@@ -123,7 +140,11 @@ pub fn blocks(document: &str) -> Vec<Block> {
     for (number, line) in text.lines().enumerate() {
         match (line.strip_prefix("```"), open.take()) {
             (Some(info), None) => {
-                open = Some(Block { line: number + 1, info: info.trim().into(), text: String::new() });
+                open = Some(Block {
+                    line: number + 1,
+                    info: info.trim().into(),
+                    text: String::new(),
+                });
             }
             (Some(_), Some(block)) => out.push(block),
             (None, Some(mut block)) => {

@@ -30,7 +30,8 @@ pub fn diagnostics(text: &str, diagnostics: &[Diagnostic]) -> Result<(), String>
     for diagnostic in diagnostics {
         let related = diagnostic.related.iter().map(|(span, _)| span);
         for span in std::iter::once(&diagnostic.span).chain(related) {
-            inside(text, *span).ok_or(format!("{span:?} is no place of the text: {diagnostic:?}"))?;
+            inside(text, *span)
+                .ok_or(format!("{span:?} is no place of the text: {diagnostic:?}"))?;
         }
         wording(diagnostic)?;
     }
@@ -49,14 +50,20 @@ fn wording(diagnostic: &Diagnostic) -> Result<(), String> {
         return Err(format!("{code:?} is no code"));
     }
     let message = diagnostic.message.as_str();
-    if message.is_empty() || message.ends_with('.') || message.starts_with(|c: char| c.is_uppercase()) {
+    if message.is_empty()
+        || message.ends_with('.')
+        || message.starts_with(|c: char| c.is_uppercase())
+    {
         return Err(format!("the message {message:?} of {code}"));
     }
     let remarks = diagnostic.related.iter().map(|(_, remark)| remark.as_str());
     let texts = [message, &diagnostic.label].into_iter().chain(remarks);
     for text in texts.chain(diagnostic.hint.as_deref()) {
         if text.chars().count() > LONGEST {
-            return Err(format!("{code} has a text of {} characters", text.chars().count()));
+            return Err(format!(
+                "{code} has a text of {} characters",
+                text.chars().count()
+            ));
         }
         if text.chars().any(char::is_control) {
             return Err(format!("{code} has a control character in {text:?}"));

@@ -22,14 +22,24 @@ fn arrows(metadata: &Metadata, kind: DependencyKind) -> Arrows {
     let nodes = &metadata.resolve.as_ref().expect("a resolved graph").nodes;
     let of = |node: &cargo_metadata::Node| {
         let wanted = |d: &&cargo_metadata::NodeDep| d.dep_kinds.iter().any(|k| k.kind == kind);
-        node.deps.iter().filter(wanted).map(|d| d.pkg.clone()).collect()
+        node.deps
+            .iter()
+            .filter(wanted)
+            .map(|d| d.pkg.clone())
+            .collect()
     };
-    nodes.iter().map(|node| (node.id.clone(), of(node))).collect()
+    nodes
+        .iter()
+        .map(|node| (node.id.clone(), of(node)))
+        .collect()
 }
 
 fn package(metadata: &Metadata, name: &str) -> PackageId {
     let found = metadata.packages.iter().find(|p| p.name.as_str() == name);
-    found.unwrap_or_else(|| panic!("no package {name}")).id.clone()
+    found
+        .unwrap_or_else(|| panic!("no package {name}"))
+        .id
+        .clone()
 }
 
 fn name(metadata: &Metadata, id: &PackageId) -> String {
@@ -62,27 +72,51 @@ fn data_flows_one_way() {
     let metadata = metadata();
     let check = |from: &str, kind, to: &[&str]| {
         let expected: BTreeSet<String> = to.iter().map(|&s| s.to_owned()).collect();
-        assert_eq!(ours(&metadata, from, kind), expected, "{kind:?} dependencies of {from}");
+        assert_eq!(
+            ours(&metadata, from, kind),
+            expected,
+            "{kind:?} dependencies of {from}"
+        );
     };
     let (grammar, compiler) = ("pullback-grammar", "pullback-compiler");
     check(grammar, DependencyKind::Normal, &[]);
     check(compiler, DependencyKind::Normal, &[grammar]);
-    check("pullback-runtime", DependencyKind::Normal, &[compiler, grammar]);
+    check(
+        "pullback-runtime",
+        DependencyKind::Normal,
+        &[compiler, grammar],
+    );
     for crate_name in [grammar, compiler, "pullback-runtime"] {
         check(crate_name, DependencyKind::Development, &[]);
         check(crate_name, DependencyKind::Build, &[]);
     }
-    let members: BTreeSet<String> =
-        metadata.workspace_members.iter().map(|id| name(&metadata, id)).collect();
+    let members: BTreeSet<String> = metadata
+        .workspace_members
+        .iter()
+        .map(|id| name(&metadata, id))
+        .collect();
     let known = [grammar, compiler, "pullback-runtime", "pullback-tests"].map(str::to_owned);
-    assert_eq!(members, BTreeSet::from(known), "a crate without its arrows here");
+    assert_eq!(
+        members,
+        BTreeSet::from(known),
+        "a crate without its arrows here"
+    );
 }
 
 #[test]
 fn the_compiler_does_not_see_the_gpu() {
     let metadata = metadata();
     let compiler = tree(&metadata, "pullback-compiler");
-    for absent in ["wgpu", "wgpu-core", "wgpu-hal", "wgpu-types", "ash", "winit", "pollster", "png"] {
+    for absent in [
+        "wgpu",
+        "wgpu-core",
+        "wgpu-hal",
+        "wgpu-types",
+        "ash",
+        "winit",
+        "pollster",
+        "png",
+    ] {
         assert!(!compiler.contains(absent), "the compiler links {absent}");
     }
     assert!(compiler.contains("naga"), "the tree has been read");
@@ -97,7 +131,9 @@ fn sources(folder: &str) -> Vec<PathBuf> {
     let mut out = Vec::new();
     let mut open = vec![root().join(folder)];
     while let Some(at) = open.pop() {
-        let is_test = at.file_name().is_some_and(|n| n == "tests" || n == "tests.rs");
+        let is_test = at
+            .file_name()
+            .is_some_and(|n| n == "tests" || n == "tests.rs");
         if is_test {
             continue;
         }
@@ -154,8 +190,18 @@ fn grammar_and_compiler_touch_nothing_outside() {
     check_absent(
         &["grammar/src", "compiler/src"],
         &[
-            "print!(", "println!(", "dbg!(", "std::fs", "std::process", "std::net", "std::env",
-            "std::io", "std::thread", "std::time", "Instant::now", "SystemTime",
+            "print!(",
+            "println!(",
+            "dbg!(",
+            "std::fs",
+            "std::process",
+            "std::net",
+            "std::env",
+            "std::io",
+            "std::thread",
+            "std::time",
+            "Instant::now",
+            "SystemTime",
         ],
     );
 }
@@ -165,8 +211,15 @@ fn grammar_and_compiler_do_not_give_up() {
     check_absent(
         &["grammar/src", "compiler/src"],
         &[
-            ".unwrap()", ".expect(", "panic!(", "unreachable!(", "todo!(", "unimplemented!(",
-            "assert!(", "assert_eq!(", "assert_ne!(",
+            ".unwrap()",
+            ".expect(",
+            "panic!(",
+            "unreachable!(",
+            "todo!(",
+            "unimplemented!(",
+            "assert!(",
+            "assert_eq!(",
+            "assert_ne!(",
         ],
     );
 }
@@ -181,6 +234,14 @@ fn the_compiler_has_no_state_but_its_tables() {
     // the same text gives the same bytes: nothing is remembered between calls but what is built once
     check_absent(
         &["grammar/src", "compiler/src"],
-        &["static mut", "thread_local!", "Mutex", "RwLock", "Atomic", "RandomState", "HashMap::new()"],
+        &[
+            "static mut",
+            "thread_local!",
+            "Mutex",
+            "RwLock",
+            "Atomic",
+            "RandomState",
+            "HashMap::new()",
+        ],
     );
 }

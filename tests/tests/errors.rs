@@ -12,19 +12,30 @@ fn fits(expected: &Expected, found: &Diagnostic, text: &str) -> bool {
     found.code == expected.code
         && (expected.spanned.is_empty() || found.span.text(text) == expected.spanned)
         && (expected.hint.is_empty()
-            || found.hint.as_ref().is_some_and(|hint| hint.contains(&expected.hint)))
+            || found
+                .hint
+                .as_ref()
+                .is_some_and(|hint| hint.contains(&expected.hint)))
         && found.is_error() != WARNINGS.contains(&found.code)
 }
 
 fn show(found: &Diagnostic, text: &str) -> String {
     let hint = found.hint.as_deref().unwrap_or("");
-    format!("{} \"{}\" : {hint}   [{}]", found.code, found.span.text(text), found.message)
+    format!(
+        "{} \"{}\" : {hint}   [{}]",
+        found.code,
+        found.span.text(text),
+        found.message
+    )
 }
 
 /// What is wrong with the answer to a wrong program.
 fn complaints(case: &WrongProgram) -> Vec<String> {
     let answer = compile(&case.text);
-    let mut out: Vec<String> = holds::compilation(&case.text, &answer).err().into_iter().collect();
+    let mut out: Vec<String> = holds::compilation(&case.text, &answer)
+        .err()
+        .into_iter()
+        .collect();
     let mut found: Vec<&Diagnostic> = answer.diagnostics.iter().collect();
     for expected in &case.expected {
         match found.iter().position(|f| fits(expected, f, &case.text)) {
@@ -37,7 +48,11 @@ fn complaints(case: &WrongProgram) -> Vec<String> {
             )),
         }
     }
-    out.extend(found.iter().map(|f| format!("unexpected {}", show(f, &case.text))));
+    out.extend(
+        found
+            .iter()
+            .map(|f| format!("unexpected {}", show(f, &case.text))),
+    );
     out
 }
 
@@ -68,7 +83,10 @@ fn rendered(text: &str) -> String {
 
 fn of_corpus(name: &str) -> String {
     let cases = wrong_programs();
-    let case = cases.iter().find(|c| c.name == name).unwrap_or_else(|| panic!("no case {name}"));
+    let case = cases
+        .iter()
+        .find(|c| c.name == name)
+        .unwrap_or_else(|| panic!("no case {name}"));
     rendered(&case.text)
 }
 
@@ -92,6 +110,9 @@ fn diagnostics_read_well() {
         "empty-file",
         "where-local-before-definition",
     ];
-    let shown: Vec<String> = names.iter().map(|n| format!("=== {n}\n{}", of_corpus(n))).collect();
+    let shown: Vec<String> = names
+        .iter()
+        .map(|n| format!("=== {n}\n{}", of_corpus(n)))
+        .collect();
     insta::assert_snapshot!(shown.join("\n"));
 }

@@ -14,7 +14,9 @@ const LIMIT: Duration = Duration::from_secs(20);
 
 /// Runs on the smallest stack that threads have by default.
 fn on_small_stack<T: Send + 'static>(name: &str, run: impl FnOnce() -> T + Send + 'static) -> T {
-    let builder = std::thread::Builder::new().name(name.to_owned()).stack_size(2 << 20);
+    let builder = std::thread::Builder::new()
+        .name(name.to_owned())
+        .stack_size(2 << 20);
     let thread = builder.spawn(run).expect("a thread");
     thread.join().expect("no panic")
 }
@@ -32,7 +34,11 @@ fn answer(name: &str, text: String) -> Compilation {
         }
         // what is rendered is bounded, too
         let shown = pullback_grammar::render(&answer.diagnostics, "x.pull", &text, false);
-        assert!(shown.len() < 200_000, "{name}: {} bytes are rendered", shown.len());
+        assert!(
+            shown.len() < 200_000,
+            "{name}: {} bytes are rendered",
+            shown.len()
+        );
         answer
     })
 }
@@ -46,7 +52,11 @@ fn check(name: &str, text: impl Into<String>, expected: &[&[&str]]) {
     let answer = answer(name, text.into());
     let found = codes(&answer);
     let fits = expected.iter().any(|e| *e == found.as_slice());
-    assert!(fits, "{name}: found {found:?}\n{:?}", answer.diagnostics.first());
+    assert!(
+        fits,
+        "{name}: found {found:?}\n{:?}",
+        answer.diagnostics.first()
+    );
 }
 
 const MANY: usize = 100_000;
@@ -54,20 +64,40 @@ const MANY: usize = 100_000;
 #[test]
 fn deep_nesting_is_an_error_that_names_the_bound() {
     let deep: &[&[&str]] = &[&["too-deep"]];
-    check("brackets", format!("{}x{}", "(".repeat(MANY), ")".repeat(MANY)), deep);
+    check(
+        "brackets",
+        format!("{}x{}", "(".repeat(MANY), ")".repeat(MANY)),
+        deep,
+    );
     check("opening brackets", "(".repeat(MANY), deep);
-    check("bars", format!("{}x", "|".repeat(MANY)), &[&["too-deep"], &["missing-closing"]]);
+    check(
+        "bars",
+        format!("{}x", "|".repeat(MANY)),
+        &[&["too-deep"], &["missing-closing"]],
+    );
     check("braces", "{".repeat(MANY), deep);
     for prefix in ["-", "not ", "√", "- √ "] {
         check(prefix, format!("{}x", prefix.repeat(MANY)), deep);
     }
     check("powers", format!("{}2", "2^".repeat(MANY)), deep);
-    check("conditionals", format!("{}2", "if x < 0 then 1 else ".repeat(MANY)), deep);
+    check(
+        "conditionals",
+        format!("{}2", "if x < 0 then 1 else ".repeat(MANY)),
+        deep,
+    );
     check("conditions", format!("{}x", "if ".repeat(MANY)), deep);
-    check("calls", format!("{}x{}", "sin(".repeat(MANY), ")".repeat(MANY)), deep);
+    check(
+        "calls",
+        format!("{}x{}", "sin(".repeat(MANY), ")".repeat(MANY)),
+        deep,
+    );
     check("mixed", "sin(|{x < (".repeat(MANY), deep);
     let answer = answer("brackets", "(".repeat(MANY));
-    assert!(answer.diagnostics[0].message.contains("200"), "{:?}", answer.diagnostics[0]);
+    assert!(
+        answer.diagnostics[0].message.contains("200"),
+        "{:?}",
+        answer.diagnostics[0]
+    );
 }
 
 #[test]
@@ -77,13 +107,41 @@ fn long_chains_are_no_nesting() {
     check("difference", format!("x{}", " - y".repeat(MANY)), fine);
     check("product", format!("x{}", " x".repeat(MANY)), fine);
     check("quotient", format!("x{}", " / y".repeat(MANY)), fine);
-    check("comparisons", format!("if x{} then 1 else 0", " < y".repeat(MANY)), fine);
-    check("conjunction", format!("if x < y{} then 1 else 0", " and x < y".repeat(MANY)), fine);
-    check("superscripts", format!("x{}", "²".repeat(MANY)), &[&["number-too-large"]]);
-    check("squares", format!("x{}", " ²".repeat(MANY)), &[&[], &["too-deep"]]);
-    check("factorials", format!("x{}", "!".repeat(MANY)), &[&[], &["too-deep"]]);
-    check("members", format!("p{}", ".xyz".repeat(MANY)), &[&["wrong-result-type"], &["too-deep"]]);
-    check("primes", format!("f{}(x)", "'".repeat(MANY)), &[&["unknown-function"], &["not-yet", "unknown-function"]]);
+    check(
+        "comparisons",
+        format!("if x{} then 1 else 0", " < y".repeat(MANY)),
+        fine,
+    );
+    check(
+        "conjunction",
+        format!("if x < y{} then 1 else 0", " and x < y".repeat(MANY)),
+        fine,
+    );
+    check(
+        "superscripts",
+        format!("x{}", "²".repeat(MANY)),
+        &[&["number-too-large"]],
+    );
+    check(
+        "squares",
+        format!("x{}", " ²".repeat(MANY)),
+        &[&[], &["too-deep"]],
+    );
+    check(
+        "factorials",
+        format!("x{}", "!".repeat(MANY)),
+        &[&[], &["too-deep"]],
+    );
+    check(
+        "members",
+        format!("p{}", ".xyz".repeat(MANY)),
+        &[&["wrong-result-type"], &["too-deep"]],
+    );
+    check(
+        "primes",
+        format!("f{}(x)", "'".repeat(MANY)),
+        &[&["unknown-function"], &["not-yet", "unknown-function"]],
+    );
 }
 
 /// `f0(x) = x`, and each next calls the one before, `wrap`ped in something.
@@ -100,14 +158,26 @@ fn chain(count: usize, wrap: impl Fn(&str) -> String) -> String {
 fn long_chains_of_calls_are_bounded() {
     check("50 calls", chain(50, str::to_owned), &[&[]]);
     check("66 calls", chain(66, str::to_owned), &[&["too-deep"]]);
-    check("10000 calls", chain(10_000, str::to_owned), &[&["too-deep"]]);
+    check(
+        "10000 calls",
+        chain(10_000, str::to_owned),
+        &[&["too-deep"]],
+    );
     let nested = |call: &str| format!("{}{call}{}", "sin(".repeat(180), ")".repeat(180));
-    check("60 calls, each nested 180 deep", chain(60, nested), &[&[], &["too-deep"]]);
+    check(
+        "60 calls, each nested 180 deep",
+        chain(60, nested),
+        &[&[], &["too-deep"]],
+    );
     let mut constants = "a0 = 1\n".to_owned();
     for k in 1..200 {
         let _ = writeln!(constants, "a{k} = a{} + 1", k - 1);
     }
-    check("200 constants", constants + "x + y + a199", &[&["too-deep"]]);
+    check(
+        "200 constants",
+        constants + "x + y + a199",
+        &[&["too-deep"]],
+    );
 }
 
 #[test]
@@ -118,7 +188,11 @@ fn shared_parts_are_computed_once() {
     for k in 1..60 {
         let _ = writeln!(constants, "a{k}(x) = a{0}(x) + a{0}(x)", k - 1);
     }
-    check("60 doublings of functions", constants + "a59(x) + y", &[&[]]);
+    check(
+        "60 doublings of functions",
+        constants + "a59(x) + y",
+        &[&[]],
+    );
 }
 
 #[test]
@@ -130,7 +204,11 @@ fn explosions_hit_the_budget() {
     text.push_str("show levels(g40(x) + y)");
     let answer = answer("explosion", text);
     assert_eq!(codes(&answer), ["too-large"]);
-    assert!(answer.diagnostics[0].message.contains("2000000"), "{:?}", answer.diagnostics[0]);
+    assert!(
+        answer.diagnostics[0].message.contains("2000000"),
+        "{:?}",
+        answer.diagnostics[0]
+    );
 }
 
 #[test]
@@ -166,16 +244,38 @@ fn bounds_of_the_program() {
 #[test]
 fn bounds_of_the_text() {
     let limit = 4 << 20;
-    check("beyond the bound", " ".repeat(limit + 1), &[&["source-too-large"]]);
-    for c in [" ", "x", "\n", "/", "*", "(", "|", "1", ";", "$", "π", "f(", "x,", "²", "'"] {
+    check(
+        "beyond the bound",
+        " ".repeat(limit + 1),
+        &[&["source-too-large"]],
+    );
+    for c in [
+        " ", "x", "\n", "/", "*", "(", "|", "1", ";", "$", "π", "f(", "x,", "²", "'",
+    ] {
         // an answer, whatever it is
         answer(c, c.repeat(limit / c.len()));
     }
-    check("a million separators", ";".repeat(1_000_000), &[&["empty-source"], &["nothing-to-show"]]);
+    check(
+        "a million separators",
+        ";".repeat(1_000_000),
+        &[&["empty-source"], &["nothing-to-show"]],
+    );
     check("a long name", "a".repeat(1_000_000), &[&["unknown-name"]]);
-    check("a long function", format!("{}(x)", "a".repeat(1_000_000)), &[&["unknown-function"]]);
-    check("a long number", format!("x + {}", "1".repeat(1_000_000)), &[&["number-too-large"]]);
-    check("a long one", format!("x + 1{}e-400", "0".repeat(400)), &[&[]]);
+    check(
+        "a long function",
+        format!("{}(x)", "a".repeat(1_000_000)),
+        &[&["unknown-function"]],
+    );
+    check(
+        "a long number",
+        format!("x + {}", "1".repeat(1_000_000)),
+        &[&["number-too-large"]],
+    );
+    check(
+        "a long one",
+        format!("x + 1{}e-400", "0".repeat(400)),
+        &[&[]],
+    );
 }
 
 #[test]
@@ -184,9 +284,16 @@ fn many_mistakes_are_counted_not_listed() {
     for k in 0..10_000 {
         let _ = write!(names, " + unknown{k}");
     }
-    for (name, text) in [("names", names), ("strays", format!("x + y {}", "$ ".repeat(10_000)))] {
+    for (name, text) in [
+        ("names", names),
+        ("strays", format!("x + y {}", "$ ".repeat(10_000))),
+    ] {
         let found = answer(name, text);
-        assert!((100..=210).contains(&found.diagnostics.len()), "{name}: {}", found.diagnostics.len());
+        assert!(
+            (100..=210).contains(&found.diagnostics.len()),
+            "{name}: {}",
+            found.diagnostics.len()
+        );
         let last = found.diagnostics.last().map(|d| d.code);
         assert_eq!(last, Some("too-many-problems"), "{name}");
     }
@@ -197,7 +304,12 @@ fn bytes_that_are_no_text() {
     let check = |bytes: &[u8], hint: &str| {
         let found = compile_bytes(bytes);
         assert_eq!(codes(&found), ["not-utf8"], "{bytes:?}");
-        assert!(found.diagnostics[0].hint.as_deref().is_some_and(|h| h.contains(hint)));
+        assert!(
+            found.diagnostics[0]
+                .hint
+                .as_deref()
+                .is_some_and(|h| h.contains(hint))
+        );
         assert!(found.program.is_none());
         found.diagnostics[0].span.start
     };
@@ -227,7 +339,10 @@ fn damaged_gallery_files_are_answered() {
                     panic!("{} damaged: {problem}\n{text}", source.name);
                 }
                 let silent = |d: &Diagnostic| d.code == "internal-silent";
-                assert!(!answer.diagnostics.iter().any(silent), "no error for\n{text}");
+                assert!(
+                    !answer.diagnostics.iter().any(silent),
+                    "no error for\n{text}"
+                );
             }
         }
     });
@@ -235,7 +350,10 @@ fn damaged_gallery_files_are_answered() {
 
 /// Prefixes, and the text with one character deleted, doubled or swapped with its neighbour. Comments are left out.
 fn damaged(text: &str) -> Vec<String> {
-    let code: Vec<&str> = text.lines().filter(|l| !l.trim_start().starts_with("//")).collect();
+    let code: Vec<&str> = text
+        .lines()
+        .filter(|l| !l.trim_start().starts_with("//"))
+        .collect();
     let letters: Vec<char> = code.join("\n").chars().collect();
     let mut out = Vec::new();
     for k in 0..letters.len() {

@@ -25,10 +25,19 @@ fn complaint(document: &str, block: &Block) -> Option<String> {
 }
 
 fn check(document: &str, at_least: usize) {
-    let blocks: Vec<Block> =
-        blocks(document).into_iter().filter(|b| b.info.starts_with("pull")).collect();
-    assert!(blocks.len() >= at_least, "{document} has only {} programs", blocks.len());
-    let complaints: Vec<String> = blocks.iter().filter_map(|b| complaint(document, b)).collect();
+    let blocks: Vec<Block> = blocks(document)
+        .into_iter()
+        .filter(|b| b.info.starts_with("pull"))
+        .collect();
+    assert!(
+        blocks.len() >= at_least,
+        "{document} has only {} programs",
+        blocks.len()
+    );
+    let complaints: Vec<String> = blocks
+        .iter()
+        .filter_map(|b| complaint(document, b))
+        .collect();
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
 }
 

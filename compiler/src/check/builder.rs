@@ -5,9 +5,9 @@ use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
+use super::names::MAX_CALL_DEPTH;
 use super::suggest::quoted;
 use super::symbols::Symbols;
-use super::names::MAX_CALL_DEPTH;
 use super::{Value, library, named_constant};
 use crate::ir::{Graph, Id, Op, Ty};
 use crate::types::Type;
@@ -115,12 +115,18 @@ impl<'a> Builder<'a> {
                 self.unary(*op, &value, span, file.exprs.span(*arg))
             }
             Expr::Compare { first, rest } => self.comparison(*first, rest, span),
-            Expr::Call { callee, primes, args } => self.call(callee, *primes, args, span),
+            Expr::Call {
+                callee,
+                primes,
+                args,
+            } => self.call(callee, *primes, args, span),
             Expr::Member { base, field } => self.swizzle(*base, field),
             Expr::Vector(items) => self.vector(items),
-            Expr::If { cond, then, otherwise } => {
-                self.choice(std::iter::once((*cond, *then)), Some(*otherwise), span)
-            }
+            Expr::If {
+                cond,
+                then,
+                otherwise,
+            } => self.choice(std::iter::once((*cond, *then)), Some(*otherwise), span),
             Expr::Piecewise { arms, otherwise } => {
                 self.choice(arms.iter().copied(), *otherwise, span)
             }
@@ -264,7 +270,11 @@ impl<'a> Builder<'a> {
                 None => failed = true,
             }
         }
-        if failed { Value::Error } else { Value::Vector(ids) }
+        if failed {
+            Value::Error
+        } else {
+            Value::Vector(ids)
+        }
     }
 
     fn swizzle(&mut self, base: ExprId, field: &'a Name) -> Value {
@@ -273,7 +283,9 @@ impl<'a> Builder<'a> {
             Value::Error => return Value::Error,
             Value::Vector(items) => items.clone(),
             Value::Scalar(_) => {
-                let Some(ty) = value.ty(&self.graph) else { return Value::Error };
+                let Some(ty) = value.ty(&self.graph) else {
+                    return Value::Error;
+                };
                 let problem = Diagnostic::error(
                     "bad-swizzle",
                     field.span,
@@ -308,14 +320,19 @@ impl<'a> Builder<'a> {
             (message, "a vector has at most 4 components".to_owned())
         } else {
             let message = format!("a vec{size} has no component `{letter}`");
-            (message, format!("the components of a vec{size} are {known}, or {twins}"))
+            (
+                message,
+                format!("the components of a vec{size} are {known}, or {twins}"),
+            )
         };
         self.report(Diagnostic::error("bad-swizzle", field.span, message).with_hint(hint))
     }
 
     /// The function of the program with this name.
     pub(super) fn user_function(&self, name: &str) -> Option<&'a Function> {
-        (self.source == Source::Program).then(|| self.symbols.functions.get(name).copied()).flatten()
+        (self.source == Source::Program)
+            .then(|| self.symbols.functions.get(name).copied())
+            .flatten()
     }
 
     /// Where an expression of the current text stands, in the user's text.

@@ -82,7 +82,9 @@ impl<'a> Builder<'a> {
             return Value::Error;
         }
         for (k, formal) in function.params.iter().enumerate() {
-            let Some(ty) = formal.ty.as_ref().map(|t| Type::from_name(&t.text)) else { continue };
+            let Some(ty) = formal.ty.as_ref().map(|t| Type::from_name(&t.text)) else {
+                continue;
+            };
             let Some(ty) = ty else { return Value::Error };
             let place = spans.get(k).copied().unwrap_or(span);
             values[k] = self.convert(&values[k], ty, place, function, k);
@@ -121,7 +123,9 @@ impl<'a> Builder<'a> {
         function: &Function,
         k: usize,
     ) -> Value {
-        let Some(found) = value.ty(&self.graph) else { return Value::Error };
+        let Some(found) = value.ty(&self.graph) else {
+            return Value::Error;
+        };
         match value {
             _ if found == ty => value.clone(),
             Value::Scalar(id) if found == Type::Real && ty == Type::Complex => {
@@ -131,10 +135,16 @@ impl<'a> Builder<'a> {
                 let problem = Diagnostic::error(
                     "type-mismatch",
                     span,
-                    format!("{} is {ty}, found {found}", quoted(&function.params[k].name.text)),
+                    format!(
+                        "{} is {ty}, found {found}",
+                        quoted(&function.params[k].name.text)
+                    ),
                 )
                 .with_label(format!("this is {found}"))
-                .with_related(function.params[k].name.span, format!("{ty} in {}", signature(function)));
+                .with_related(
+                    function.params[k].name.span,
+                    format!("{ty} in {}", signature(function)),
+                );
                 let from_complex = found == Type::Complex && ty == Type::Real;
                 self.report(if from_complex {
                     problem.with_hint("take re(…), im(…) or abs(…)")
@@ -165,7 +175,9 @@ impl<'a> Builder<'a> {
                 size = Some(items.len());
             }
         }
-        let Some(size) = size else { return self.library_scalar(function, values, span) };
+        let Some(size) = size else {
+            return self.library_scalar(function, values, span);
+        };
         let mut out = SmallVec::new();
         for k in 0..size {
             let component = |v: &Value| match v {
@@ -200,11 +212,23 @@ impl<'a> Builder<'a> {
         if formals.len() != values.len() {
             return Value::Error;
         }
-        let shown: Vec<String> =
-            values.iter().filter_map(|v| v.ty(&self.graph)).map(|t| t.to_string()).collect();
-        let scope = formals.iter().map(|p| p.name.text.as_str()).zip(values).collect();
+        let shown: Vec<String> = values
+            .iter()
+            .filter_map(|v| v.ty(&self.graph))
+            .map(|t| t.to_string())
+            .collect();
+        let scope = formals
+            .iter()
+            .map(|p| p.name.text.as_str())
+            .zip(values)
+            .collect();
         let before = self.diagnostics.len();
-        let value = self.outside(function.name, Source::Library, scope, function.function.body);
+        let value = self.outside(
+            function.name,
+            Source::Library,
+            scope,
+            function.function.body,
+        );
         if self.diagnostics.len() > before {
             // places inside of the library mean nothing to the user
             self.diagnostics.truncate(before);

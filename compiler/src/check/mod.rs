@@ -32,7 +32,10 @@ pub fn is_builtin_function(name: &str) -> bool {
 /// Names of functions that the language reserves and does not have yet.
 #[must_use]
 pub fn is_reserved_function(name: &str) -> bool {
-    matches!(name, "sum" | "product" | "iterate" | "diff" | "grad" | "integral")
+    matches!(
+        name,
+        "sum" | "product" | "iterate" | "diff" | "grad" | "integral"
+    )
 }
 
 /// The value of a named constant of the language.

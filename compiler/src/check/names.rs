@@ -4,10 +4,11 @@ use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Name, Set
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::symbols::reserved;
 use super::suggest::{quoted, shortened};
+use super::symbols::reserved;
 use super::{
-    Symbols, builtins, is_builtin_function, is_builtin_value, is_reserved_function, library, nearest,
+    Symbols, builtins, is_builtin_function, is_builtin_value, is_reserved_function, library,
+    nearest,
 };
 use crate::table;
 
@@ -54,7 +55,10 @@ pub fn free_variables(file: &File, symbols: &Symbols, formula: ExprId) -> Vec<&'
     let mut walk = Walk::new(&file.exprs, symbols, &mut ignored);
     walk.formula(formula);
     let free = std::mem::take(&mut walk.free);
-    FREE_NAMES.into_iter().filter(|name| free.contains(name)).collect()
+    FREE_NAMES
+        .into_iter()
+        .filter(|name| free.contains(name))
+        .collect()
 }
 
 struct Walk<'a, 'd> {
@@ -120,7 +124,11 @@ impl<'a, 'd> Walk<'a, 'd> {
                 self.diagnostics.push(unknown_type(ty));
             }
         }
-        self.scope = function.params.iter().map(|p| p.name.text.as_str()).collect();
+        self.scope = function
+            .params
+            .iter()
+            .map(|p| p.name.text.as_str())
+            .collect();
         self.definition(&function.name.text, function.body);
         self.scope.clear();
     }
@@ -178,16 +186,24 @@ impl<'a, 'd> Walk<'a, 'd> {
                 self.callee(callee, args.len());
                 let takes_functions = is_reserved_function(&callee.text);
                 for &arg in args {
-                    let is_function = |n: &Name| self.symbols.functions.contains_key(n.text.as_str());
-                    if !(takes_functions && matches!(&exprs[arg], Expr::Name(n) if is_function(n))) {
+                    let is_function =
+                        |n: &Name| self.symbols.functions.contains_key(n.text.as_str());
+                    if !(takes_functions && matches!(&exprs[arg], Expr::Name(n) if is_function(n)))
+                    {
                         self.expr(arg);
                     }
                 }
             }
             Expr::Member { base, .. } => self.expr(*base),
             Expr::Vector(items) => items.iter().for_each(|e| self.expr(*e)),
-            Expr::If { cond, then, otherwise } => {
-                [cond, then, otherwise].into_iter().for_each(|e| self.expr(*e));
+            Expr::If {
+                cond,
+                then,
+                otherwise,
+            } => {
+                [cond, then, otherwise]
+                    .into_iter()
+                    .for_each(|e| self.expr(*e));
             }
             Expr::Piecewise { arms, otherwise } => {
                 for (cond, value) in arms {
@@ -203,7 +219,8 @@ impl<'a, 'd> Walk<'a, 'd> {
     fn locals(&mut self, body: ExprId, locals: &'a [(Name, ExprId)]) {
         let depth = self.scope.len();
         let pending = self.pending.len();
-        self.pending.extend(locals.iter().rev().map(|(name, _)| name));
+        self.pending
+            .extend(locals.iter().rev().map(|(name, _)| name));
         let mut seen: FxHashMap<&str, Span> = FxHashMap::default();
         for (name, value) in locals {
             if let Some(problem) = reserved(name) {
@@ -255,7 +272,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         if let Some(what) = self.fixed
             && FREE_NAMES.contains(&text)
         {
-            self.diagnostics.push(not_constant(name.span, what).with_label("an input of formulas"));
+            self.diagnostics
+                .push(not_constant(name.span, what).with_label("an input of formulas"));
             return;
         }
         let problem = if self.symbols.functions.contains_key(text) || is_builtin_function(text) {
@@ -281,14 +299,18 @@ impl<'a, 'd> Walk<'a, 'd> {
             _ if self.symbols.params.contains_key(text) => "a parameter",
             _ => return,
         };
-        self.diagnostics.push(not_constant(name.span, what).with_label(label));
+        self.diagnostics
+            .push(not_constant(name.span, what).with_label(label));
     }
 
     fn unknown(&self, name: &Name) -> Diagnostic {
         let text = name.text.as_str();
-        let problem =
-            Diagnostic::error("unknown-name", name.span, format!("unknown name {}", quoted(text)))
-                .with_label("not defined");
+        let problem = Diagnostic::error(
+            "unknown-name",
+            name.span,
+            format!("unknown name {}", quoted(text)),
+        )
+        .with_label("not defined");
         if let Some(local) = self.pending.iter().rev().find(|n| n.text == text) {
             return Diagnostic::error(
                 "used-before-definition",
@@ -326,10 +348,17 @@ impl<'a, 'd> Walk<'a, 'd> {
         let current = self.current.unwrap_or("f");
         match self.symbols.functions.get(current) {
             Some(function) => {
-                let mut params: Vec<&str> =
-                    function.params.iter().map(|p| p.name.text.as_str()).collect();
+                let mut params: Vec<&str> = function
+                    .params
+                    .iter()
+                    .map(|p| p.name.text.as_str())
+                    .collect();
                 params.push(input);
-                format!("write `{}({}) = …`", shortened(current), shortened(&params.join(", ")))
+                format!(
+                    "write `{}({}) = …`",
+                    shortened(current),
+                    shortened(&params.join(", "))
+                )
             }
             None => format!("write `{}({input}) = …`", shortened(current)),
         }
@@ -338,9 +367,8 @@ impl<'a, 'd> Walk<'a, 'd> {
     /// `xy` as `x y`, where every letter has a meaning.
     fn as_product(&self, text: &str) -> Option<String> {
         let letters: Vec<String> = text.chars().take(9).map(String::from).collect();
-        let known = |l: &String| {
-            self.is_value(l) || (self.in_formula && FREE_NAMES.contains(&l.as_str()))
-        };
+        let known =
+            |l: &String| self.is_value(l) || (self.in_formula && FREE_NAMES.contains(&l.as_str()));
         ((2..=8).contains(&letters.len()) && letters.iter().all(known)).then(|| letters.join(" "))
     }
 
@@ -356,9 +384,13 @@ impl<'a, 'd> Walk<'a, 'd> {
         if let Some(function) = self.symbols.functions.get(text).copied() {
             self.record_use(text, callee.span);
             if function.params.len() != given {
-                let problem =
-                    wrong_arity(callee, given, &function.params.len().to_string(), &signature(function))
-                        .with_related(function.name.span, "defined here");
+                let problem = wrong_arity(
+                    callee,
+                    given,
+                    &function.params.len().to_string(),
+                    &signature(function),
+                )
+                .with_related(function.name.span, "defined here");
                 self.diagnostics.push(problem);
             }
             return;
@@ -376,7 +408,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
         if let Some((expected, usage)) = builtin_arity(text, given) {
             if let Some(expected) = expected {
-                self.diagnostics.push(wrong_arity(callee, given, &expected, &usage));
+                self.diagnostics
+                    .push(wrong_arity(callee, given, &expected, &usage));
             }
             return;
         }
@@ -394,7 +427,11 @@ impl<'a, 'd> Walk<'a, 'd> {
         let known = table::rows()
             .iter()
             .flat_map(|r| r.names.iter().copied())
-            .chain(builtins::builtins().iter().flat_map(|b| b.names.iter().copied()))
+            .chain(
+                builtins::builtins()
+                    .iter()
+                    .flat_map(|b| b.names.iter().copied()),
+            )
             .chain(library::library_functions().iter().map(|f| f.name))
             .chain(self.symbols.functions.keys().copied());
         match nearest(text, known) {
@@ -432,7 +469,9 @@ fn unknown_type(ty: &Name) -> Diagnostic {
     let message = format!("unknown type {}", quoted(&ty.text));
     let problem = Diagnostic::error("unknown-type", ty.span, message);
     let meant = match ty.text.as_str() {
-        "float" | "double" | "f32" | "f64" | "int" | "integer" | "number" | "scalar" | "R" => "real",
+        "float" | "double" | "f32" | "f64" | "int" | "integer" | "number" | "scalar" | "R" => {
+            "real"
+        }
         "C" | "complex64" | "complex128" => "complex",
         "boolean" | "truth" => "bool",
         _ => "",
@@ -462,7 +501,10 @@ fn wrong_arity(callee: &Name, given: usize, expected: &str, usage: &str) -> Diag
     Diagnostic::error(
         "wrong-arity",
         callee.span,
-        format!("{} takes {expected} argument{plural}, not {given}", quoted(&callee.text)),
+        format!(
+            "{} takes {expected} argument{plural}, not {given}",
+            quoted(&callee.text)
+        ),
     )
     .with_label(format!("called with {given}"))
     .with_hint(format!("it is written `{usage}`"))
@@ -479,13 +521,20 @@ fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
     if let Some(builtin) = builtins::by_name(name) {
         let expected = (!builtin.arity.contains(&given)).then(|| {
             let (lo, hi) = (builtin.arity.start(), builtin.arity.end());
-            if lo == hi { lo.to_string() } else { format!("{lo} to {hi}") }
+            if lo == hi {
+                lo.to_string()
+            } else {
+                format!("{lo} to {hi}")
+            }
         });
         return Some((expected, builtin.usage.to_owned()));
     }
     let function = library::by_name(name)?;
     let arity = function.function.params.len();
-    Some(((given != arity).then(|| arity.to_string()), signature(function.function)))
+    Some((
+        (given != arity).then(|| arity.to_string()),
+        signature(function.function),
+    ))
 }
 
 /// Reports definitions that need themselves, and chains of calls that are too long.
@@ -509,14 +558,23 @@ fn check_cycles(
             let callees = uses.get(name).map_or(&[][..], Vec::as_slice);
             let Some(&(callee, span)) = callees.get(*next) else {
                 let is_cyclic = cyclic.contains(name);
-                let below = callees.iter().filter_map(|(c, _)| depth.get(c)).max().unwrap_or(&0) + 1;
+                let below = callees
+                    .iter()
+                    .filter_map(|(c, _)| depth.get(c))
+                    .max()
+                    .unwrap_or(&0)
+                    + 1;
                 depth.insert(name, if is_cyclic { 1 } else { below });
                 on_path.remove(name);
                 path.pop();
                 continue;
             };
             *next += 1;
-            if let Some(at) = on_path.contains(callee).then(|| path.iter().position(|(n, _)| *n == callee)).flatten() {
+            if let Some(at) = on_path
+                .contains(callee)
+                .then(|| path.iter().position(|(n, _)| *n == callee))
+                .flatten()
+            {
                 diagnostics.push(cycle(symbols, &path[at..], callee, span));
                 cyclic.extend(path[at..].iter().map(|(n, _)| *n));
             } else if !depth.contains_key(callee) {
@@ -525,11 +583,16 @@ fn check_cycles(
             }
         }
     }
-    let too_deep = depth.iter().filter(|(_, d)| **d > MAX_CALL_DEPTH).min_by_key(|(n, d)| (**d, **n));
+    let too_deep = depth
+        .iter()
+        .filter(|(_, d)| **d > MAX_CALL_DEPTH)
+        .min_by_key(|(n, d)| (**d, **n));
     let place = |name: &str| {
         let function = symbols.functions.get(name).map(|f| f.name.span);
         let constant = symbols.constants.get(name).map(|c| c.name.span);
-        function.or(constant).or(symbols.params.get(name).map(|(_, p)| p.name.span))
+        function
+            .or(constant)
+            .or(symbols.params.get(name).map(|(_, p)| p.name.span))
     };
     if let Some((name, _)) = too_deep {
         diagnostics.push(
@@ -564,7 +627,11 @@ fn cycle(symbols: &Symbols, path: &[(&str, usize)], callee: &str, span: Span) ->
         .with_label(&chain)
         .with_hint("break the circle with a number");
     }
-    Diagnostic::error("recursion", span, format!("{} calls itself", quoted(callee)))
-        .with_label(&chain)
-        .with_hint("a formula has no recursion; write the steps out")
+    Diagnostic::error(
+        "recursion",
+        span,
+        format!("{} calls itself", quoted(callee)),
+    )
+    .with_label(&chain)
+    .with_hint("a formula has no recursion; write the steps out")
 }

@@ -69,11 +69,17 @@ impl<'a> Builder<'a> {
     }
 
     fn condition_expected(&mut self, value: &Value, span: Span) -> Value {
-        let Some(ty) = value.ty(&self.graph) else { return Value::Error };
+        let Some(ty) = value.ty(&self.graph) else {
+            return Value::Error;
+        };
         self.report(
-            Diagnostic::error("condition-not-bool", span, format!("expected a condition, found {ty}"))
-                .with_label(format!("this is {ty}"))
-                .with_hint("write a comparison such as x > 0"),
+            Diagnostic::error(
+                "condition-not-bool",
+                span,
+                format!("expected a condition, found {ty}"),
+            )
+            .with_label(format!("this is {ty}"))
+            .with_hint("write a comparison such as x > 0"),
         )
     }
 
@@ -129,7 +135,9 @@ impl<'a> Builder<'a> {
     /// Warns where a constant real argument lies outside of the domain.
     fn warn_of_nan(&mut self, prim: Prim, ids: &[Id], result: Id, span: Span) {
         let constants: Option<Vec<f64>> = ids.iter().map(|&id| self.graph.as_real(id)).collect();
-        let (Some(args), Some(value)) = (constants, self.graph.as_real(result)) else { return };
+        let (Some(args), Some(value)) = (constants, self.graph.as_real(result)) else {
+            return;
+        };
         if value.is_nan() && args.iter().all(|x| !x.is_nan()) {
             let row = crate::table::row(prim);
             let name = row.sign();
@@ -139,11 +147,15 @@ impl<'a> Builder<'a> {
                 span,
                 format!("`{name}` of the real {} is not a number", shown.join(", ")),
             );
-            self.diagnostics.push(if row.complex.is_some() && args.len() == 1 {
-                problem.with_hint(format!("for the complex value write {name}({} + 0i)", shown[0]))
-            } else {
-                problem
-            });
+            self.diagnostics
+                .push(if row.complex.is_some() && args.len() == 1 {
+                    problem.with_hint(format!(
+                        "for the complex value write {name}({} + 0i)",
+                        shown[0]
+                    ))
+                } else {
+                    problem
+                });
         }
     }
 
@@ -159,13 +171,18 @@ impl<'a> Builder<'a> {
             span,
             format!("`{}` does not take {}", row.sign(), shown.join(" and ")),
         );
-        let vectors: Vec<&Type> = tys.iter().filter(|t| matches!(t, Type::Vector(_))).collect();
+        let vectors: Vec<&Type> = tys
+            .iter()
+            .filter(|t| matches!(t, Type::Vector(_)))
+            .collect();
         let problem = if tys.contains(&Type::Bool) {
             problem.with_hint("a condition is not a number: write if … then 1 else 0")
         } else if vectors.len() > 1 && vectors.iter().any(|t| *t != vectors[0]) {
             problem.with_hint("vectors must have the same number of components; a swizzle such as p.xy shortens one")
         } else if tys.contains(&Type::Complex) && !vectors.is_empty() {
-            problem.with_hint("a vector has real components: take re(…) or im(…) of the complex number")
+            problem.with_hint(
+                "a vector has real components: take re(…) or im(…) of the complex number",
+            )
         } else {
             problem
                 .with_label("takes reals only")
@@ -275,7 +292,9 @@ impl<'a> Builder<'a> {
         }
         let (mut value, mut span) = last;
         while let Some((condition, arm, arm_span)) = built.pop() {
-            let Some(condition) = condition else { return Value::Error };
+            let Some(condition) = condition else {
+                return Value::Error;
+            };
             value = self.select(condition, (&arm, arm_span), (&value, span));
             span = arm_span;
         }

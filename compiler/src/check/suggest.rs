@@ -6,11 +6,20 @@
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let letters: Vec<char> = name.chars().take(64).collect();
     // one letter is another name, not a slip
-    let limit = if letters.len() > 1 { letters.len().div_ceil(3) } else { 0 };
+    let limit = if letters.len() > 1 {
+        letters.len().div_ceil(3)
+    } else {
+        0
+    };
     candidates
         .into_iter()
         .filter(|c| *c != name)
-        .map(|c| (distance(&letters, &c.chars().take(64).collect::<Vec<_>>()), c))
+        .map(|c| {
+            (
+                distance(&letters, &c.chars().take(64).collect::<Vec<_>>()),
+                c,
+            )
+        })
         .filter(|(d, c)| *d <= limit && *d < c.chars().count().max(2))
         .min_by_key(|(d, c)| (*d, c.len(), *c))
         .map(|(_, c)| c)
@@ -40,7 +49,9 @@ fn distance(a: &[char], b: &[char]) -> usize {
         let mut row = vec![i; b.len() + 1];
         for j in 1..=b.len() {
             let change = usize::from(!same(a[i - 1], b[j - 1]));
-            row[j] = (above[j] + 1).min(row[j - 1] + 1).min(above[j - 1] + change);
+            row[j] = (above[j] + 1)
+                .min(row[j - 1] + 1)
+                .min(above[j - 1] + change);
             if i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]) {
                 row[j] = row[j].min(before[j - 2] + 1);
             }
@@ -57,7 +68,8 @@ mod tests {
     #[test]
     fn finds_what_was_meant() {
         let names = ["sin", "sinh", "length", "smoothstep", "x", "y", "level"];
-        let check = |typed, meant: Option<&str>| assert_eq!(nearest(typed, names), meant, "{typed}");
+        let check =
+            |typed, meant: Option<&str>| assert_eq!(nearest(typed, names), meant, "{typed}");
         check("sine", Some("sin"));
         check("lenght", Some("length"));
         check("SmoothStep", Some("smoothstep"));

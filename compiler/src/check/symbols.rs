@@ -114,8 +114,12 @@ pub fn reserved(name: &Name) -> Option<Diagnostic> {
         _ => return None,
     };
     Some(
-        Diagnostic::error("reserved-name", name.span, format!("`{}` is {what}", name.text))
-            .with_label("cannot be given another meaning")
-            .with_hint("use another name"),
+        Diagnostic::error(
+            "reserved-name",
+            name.span,
+            format!("`{}` is {what}", name.text),
+        )
+        .with_label("cannot be given another meaning")
+        .with_hint("use another name"),
     )
 }

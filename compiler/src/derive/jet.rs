@@ -43,7 +43,11 @@ pub fn jet(g: &mut Graph, root: Id, z: ComplexVariable) -> Result<Jet, NoDerivat
         && is_holomorphic(g, root, z)
     {
         let dz = g.widen(along_x);
-        return Ok(Jet { value, dz, dzbar: None });
+        return Ok(Jet {
+            value,
+            dz,
+            dzbar: None,
+        });
     }
     let along_y = forward(g, &[root], &[y_seed])?[0].unwrap_or(zero);
     let turned = turn(g, along_y);
@@ -51,7 +55,11 @@ pub fn jet(g: &mut Graph, root: Id, z: ComplexVariable) -> Result<Jet, NoDerivat
     let (difference, total) = (g.sub(along_x, turned), g.add(along_x, turned));
     let (dz, dzbar) = (g.mul(half, difference), g.mul(half, total));
     let (dz, dzbar) = (g.widen(dz), g.widen(dzbar));
-    Ok(Jet { value, dz, dzbar: Some(dzbar) })
+    Ok(Jet {
+        value,
+        dz,
+        dzbar: Some(dzbar),
+    })
 }
 
 /// i · w

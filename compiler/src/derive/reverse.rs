@@ -30,12 +30,16 @@ pub fn reverse(
         if node.ty == Ty::Complex {
             return Ok(None);
         }
-        let (Op::Apply(prim), Some(adjoint)) = (node.op, adjoints[id.index()]) else { continue };
+        let (Op::Apply(prim), Some(adjoint)) = (node.op, adjoints[id.index()]) else {
+            continue;
+        };
         for (k, &arg) in node.args.iter().enumerate() {
             if !active[arg.index()] || g.ty(arg) == Ty::Bool {
                 continue;
             }
-            let Some(term) = contribution(g, prim, &node.args, id, k, adjoint)? else { continue };
+            let Some(term) = contribution(g, prim, &node.args, id, k, adjoint)? else {
+                continue;
+            };
             adjoints[arg.index()] = Some(match adjoints[arg.index()] {
                 Some(sum) => g.add(sum, term),
                 None => term,
@@ -102,12 +106,20 @@ fn contribution(
         (_, Prim::Min | Prim::Max, &[a, b]) => {
             let second = takes_second(g, prim, a, b);
             let zero = g.real(0.0);
-            let (yes, no) = if k == 1 { (adjoint, zero) } else { (zero, adjoint) };
+            let (yes, no) = if k == 1 {
+                (adjoint, zero)
+            } else {
+                (zero, adjoint)
+            };
             Some(g.apply(Prim::Select, &[second, yes, no]))
         }
         (_, Prim::Select, &[c, ..]) => {
             let zero = g.real(0.0);
-            let (yes, no) = if k == 1 { (adjoint, zero) } else { (zero, adjoint) };
+            let (yes, no) = if k == 1 {
+                (adjoint, zero)
+            } else {
+                (zero, adjoint)
+            };
             Some(g.apply(Prim::Select, &[c, yes, no]))
         }
         // of a real: itself; im and arg of a real are locally constant

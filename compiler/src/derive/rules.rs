@@ -17,7 +17,11 @@ pub fn nonzero_modulus(g: &mut Graph, modulus: Id) -> Id {
 
 /// A zero of the type of `like`.
 pub fn zero_like(g: &mut Graph, like: Ty) -> Id {
-    if like == Ty::Complex { g.complex(0.0, 0.0) } else { g.real(0.0) }
+    if like == Ty::Complex {
+        g.complex(0.0, 0.0)
+    } else {
+        g.real(0.0)
+    }
 }
 
 /// The condition under which `min` or `max` takes its second operand.

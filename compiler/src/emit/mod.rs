@@ -30,7 +30,11 @@ impl Program {
             vec![Diagnostic::error(
                 "no-picture",
                 pullback_grammar::Span::default(),
-                format!("there are {} pictures, not {}", self.pictures().len(), index + 1),
+                format!(
+                    "there are {} pictures, not {}",
+                    self.pictures().len(),
+                    index + 1
+                ),
             )]
         })
     }
@@ -92,7 +96,11 @@ impl Program {
             let (module, info, header) = match what {
                 EmitWhat::Scene => {
                     let scene = SceneModule::new(p, precision)?;
-                    (scene.module, scene.info, format!("the scene `{}`", p.scene.name))
+                    (
+                        scene.module,
+                        scene.info,
+                        format!("the scene `{}`", p.scene.name),
+                    )
                 }
                 EmitWhat::Value => function::standalone(self, p, What::Value, precision, target)?,
                 EmitWhat::Gradient => {

@@ -112,7 +112,10 @@ pub struct Pair {
 /// The pair that a function belongs to.
 #[must_use]
 pub fn pair(prim: Prim) -> Option<Pair> {
-    let extra = Weight { real: 3, complex: 8 };
+    let extra = Weight {
+        real: 3,
+        complex: 8,
+    };
     let circular = |partner, place| Pair {
         partner,
         place,
@@ -142,7 +145,10 @@ impl Row {
     pub fn sign(&self) -> &'static str {
         let is_operand = |c: char| c.is_ascii_lowercase() || c == ' ';
         let written = self.usage.rsplit(", ").next().unwrap_or(self.usage);
-        self.names.first().copied().unwrap_or_else(|| written.trim_matches(is_operand))
+        self.names
+            .first()
+            .copied()
+            .unwrap_or_else(|| written.trim_matches(is_operand))
     }
 
     /// The operation's value, in `f64`; `None` where the operand types do not fit.
@@ -175,14 +181,21 @@ pub fn row(prim: Prim) -> &'static Row {
     static INDEX: OnceLock<FxHashMap<Discriminant<Prim>, &'static Row>> = OnceLock::new();
     let index = INDEX.get_or_init(|| rows().iter().map(|r| (discriminant(&r.prim), r)).collect());
     // A unit test holds that every primitive has a row; the first row stands in for one that has not.
-    index.get(&discriminant(&prim)).copied().unwrap_or(&rows()[0])
+    index
+        .get(&discriminant(&prim))
+        .copied()
+        .unwrap_or(&rows()[0])
 }
 
 /// The row of a function by its name or alias in the language.
 #[must_use]
 pub fn by_name(name: &str) -> Option<&'static Row> {
     static INDEX: OnceLock<FxHashMap<&'static str, &'static Row>> = OnceLock::new();
-    let index = INDEX
-        .get_or_init(|| rows().iter().flat_map(|r| r.names.iter().map(move |&n| (n, r))).collect());
+    let index = INDEX.get_or_init(|| {
+        rows()
+            .iter()
+            .flat_map(|r| r.names.iter().map(move |&n| (n, r)))
+            .collect()
+    });
     index.get(name).copied()
 }
