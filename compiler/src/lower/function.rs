@@ -182,6 +182,8 @@ impl Lowering<'_, '_, '_> {
             .unwrap_or(0);
         self.depths[id.index()] = below + 1;
         let name = match self.graph.name(id) {
+            // the result of a function needs no name in the function itself
+            Some(name) if self.body.function.name.as_deref() == Some(name) => return,
             Some(name) => name.to_owned(),
             None if below + 1 >= MAX_UNNAMED_DEPTH => format!("t{}", id.index()),
             None => return,
@@ -220,9 +222,9 @@ impl Lowering<'_, '_, '_> {
     fn special(&mut self, value: f64) -> Result<Handle<Expression>, LowerError> {
         let seed = self.body.literal(0.0);
         if value.is_nan() {
-            return self.library("real_nan", vec![seed]);
+            return self.library("make_nan", vec![seed]);
         }
-        let infinity = self.library("real_infinity", vec![seed])?;
+        let infinity = self.library("make_infinity", vec![seed])?;
         Ok(if value > 0.0 {
             infinity
         } else {

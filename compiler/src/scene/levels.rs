@@ -3,7 +3,6 @@
 use super::{Scene, SettingSpec, Space};
 
 const ANY: f64 = f64::INFINITY;
-const POSITIVE: f64 = 1e-30;
 
 /// A real function of the plane by colour and level lines.
 pub const SCENE: Scene = Scene {
@@ -22,9 +21,9 @@ pub const SCENE: Scene = Scene {
         ),
         SettingSpec::real(
             "color_scale",
-            1.0,
-            (POSITIVE, ANY),
-            "value at which the colour is 71 % of the way to its end",
+            0.0,
+            (0.0, ANY),
+            "value at which the colour is 71 % of the way to its end; 0: from the values in the view",
         ),
         SettingSpec::real("line_width", 1.2, (0.0, 20.0), "pixels, of level lines"),
         SettingSpec::real(
