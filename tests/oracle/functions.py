@@ -184,7 +184,7 @@ def step_rows(name):
     for x in [s * p for p in map(f32, STEP_POINTS) for s in (1, -1)]:
         value = fn(x)
         jump = name in ("floor", "ceil", "fract") and x == math.floor(x) or name == "trunc" and x and x == math.floor(x) or name == "sign" and x == 0 or name == "round" and abs(x) % 1 == 0.5
-        if name != "fract" and value == 0:
+        if name not in ("fract", "sign") and value == 0:
             value = math.copysign(0.0, x)
         notes = "tie" if name == "round" and jump else "below-one" if name == "fract" and f32(float(value)) == 1.0 else "-"
         yield x, mp.mpf(value) if value else float(value), "-" if jump else slope, notes
@@ -282,7 +282,7 @@ def mod_rows():
         top = abs(f32(float(v))) == abs(f32(y))
         yield x, y, v, "1.0", -n if n else 0.0, "below-divisor" if top else remark([v])
     for x, y in [(6.0, 3.0), (-6.0, 3.0), (6.0, -3.0), (0.0, 3.0), (3e38, 1.0)]:
-        yield x, y, 0.0, "-", "-", "jump"
+        yield x, y, math.copysign(0.0, y), "-", "-", "jump"
     for x, y in [(1.0, 0.0), (0.0, 0.0), (INF, 1.0), (NAN, 1.0), (1.0, NAN)]:
         yield x, y, NAN, "-", "-", "special" if x - x != 0 or y != y else "domain"
 
@@ -462,6 +462,8 @@ def write_complex(out):
         fh.write("# " + line("function", "z.re", "z.im", "w.re", "w.im", "f.re", "f.im", "d.re", "d.im", "notes"))
 
         def emit(name, x, y, value, slope, notes, w=("-", "-")):
+            if w[0] != "-":  # the sign of a zero depends on how a product is formed
+                value = ["±0.0" if abs(v) < NOTHING else v for v in value]
             d = ("-", "-") if slope is None else (show(slope.real), show(slope.imag))
             fh.write(line(name, show(x), show(y), *w, show(value[0]), show(value[1]), *d, notes))
 

@@ -1,2 +1,10 @@
+<<<<<<< HEAD
 //! Suites that cross the crates of pullback, and what they share.
 pub mod accuracy;
+=======
+//! Suites that cross the crates of pullback, and what they share: the corpora, and what every answer of the
+//! compiler has.
+
+pub mod corpus;
+pub mod holds;
+>>>>>>> main

@@ -5,6 +5,7 @@ use pullback_grammar::{Diagnostic, Span};
 use smallvec::SmallVec;
 
 use super::names::signature;
+use super::suggest::quoted;
 use super::{Builder, Source, Value, builtins, library};
 use crate::ir::{Prim, Ty};
 use crate::table;
@@ -86,7 +87,7 @@ impl<'a> Builder<'a> {
             };
             let Some(ty) = ty else { return Value::Error };
             let place = spans.get(k).copied().unwrap_or(span);
-            values[k] = self.convert(&values[k], ty, place, function);
+            values[k] = self.convert(&values[k], ty, place, function, k);
             if values[k] == Value::Error {
                 return Value::Error;
             }
@@ -104,7 +105,7 @@ impl<'a> Builder<'a> {
         let before = self.diagnostics.len();
         let value = self.outside(name, Source::Program, scope, function.body);
         for problem in self.diagnostics.iter_mut().skip(before) {
-            if problem.code == "type-mismatch" && problem.related.is_empty() {
+            if problem.code == "type-mismatch" && problem.related.is_empty() && !spans.is_empty() {
                 problem.related.push((span, "in this call".to_owned()));
             }
         }
@@ -113,7 +114,15 @@ impl<'a> Builder<'a> {
         value
     }
 
-    fn convert(&mut self, value: &Value, ty: Type, span: Span, function: &Function) -> Value {
+    /// The k-th argument of a function as what the annotation says.
+    fn convert(
+        &mut self,
+        value: &Value,
+        ty: Type,
+        span: Span,
+        function: &Function,
+        k: usize,
+    ) -> Value {
         let Some(found) = value.ty(&self.graph) else {
             return Value::Error;
         };
@@ -126,12 +135,15 @@ impl<'a> Builder<'a> {
                 let problem = Diagnostic::error(
                     "type-mismatch",
                     span,
-                    format!("expected {ty}, found {found}"),
+                    format!(
+                        "{} is {ty}, found {found}",
+                        quoted(&function.params[k].name.text)
+                    ),
                 )
                 .with_label(format!("this is {found}"))
                 .with_related(
-                    function.name.span,
-                    format!("{} is defined here", signature(function)),
+                    function.params[k].name.span,
+                    format!("{ty} in {}", signature(function)),
                 );
                 let from_complex = found == Type::Complex && ty == Type::Real;
                 self.report(if from_complex {
@@ -174,7 +186,17 @@ impl<'a> Builder<'a> {
             };
             match self.library_scalar(function, values.iter().map(component).collect(), span) {
                 Value::Scalar(id) if self.graph.ty(id) == Ty::Real => out.push(id),
-                _ => return Value::Error,
+                Value::Error => return Value::Error,
+                _ => {
+                    return self.report(
+                        Diagnostic::error(
+                            "type-mismatch",
+                            span,
+                            format!("`{}` does not take vectors and complex numbers together", function.name),
+                        )
+                        .with_hint("a vector has real components: take re(…) or im(…) of the complex number"),
+                    );
+                }
             }
         }
         Value::Vector(out)

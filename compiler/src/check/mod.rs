@@ -13,8 +13,8 @@ mod value;
 pub use builder::{Builder, Source};
 pub use builtins::{Builtin, builtins};
 pub use library::{LibraryFunction, library_functions};
-pub use names::{check_names, free_variables};
-pub use suggest::nearest;
+pub use names::{check_names, free_variables, not_constant, signature};
+pub use suggest::{nearest, quoted, shortened};
 pub use symbols::Symbols;
 pub use value::Value;
 

@@ -5,7 +5,12 @@
 #[must_use]
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let letters: Vec<char> = name.chars().take(64).collect();
-    let limit = letters.len().div_ceil(3);
+    // one letter is another name, not a slip
+    let limit = if letters.len() > 1 {
+        letters.len().div_ceil(3)
+    } else {
+        0
+    };
     candidates
         .into_iter()
         .filter(|c| *c != name)
@@ -15,9 +20,25 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
                 c,
             )
         })
-        .filter(|(d, c)| *d <= limit && *d < c.chars().count().max(letters.len()))
+        .filter(|(d, c)| *d <= limit && *d < c.chars().count().max(2))
         .min_by_key(|(d, c)| (*d, c.len(), *c))
         .map(|(_, c)| c)
+}
+
+/// A name in backquotes, cut where it is long.
+#[must_use]
+pub fn quoted(name: &str) -> String {
+    format!("`{}`", shortened(name))
+}
+
+/// A name or signature, cut where it is long.
+#[must_use]
+pub fn shortened(name: &str) -> String {
+    const LIMIT: usize = 60;
+    match name.char_indices().nth(LIMIT) {
+        Some((at, _)) => format!("{}…", &name[..at]),
+        None => name.to_owned(),
+    }
 }
 
 fn distance(a: &[char], b: &[char]) -> usize {
@@ -54,6 +75,7 @@ mod tests {
         check("SmoothStep", Some("smoothstep"));
         check("levle", Some("level"));
         check("q", None);
+        check("Y", Some("y"));
         check("banana", None);
     }
 }

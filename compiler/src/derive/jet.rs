@@ -1,7 +1,7 @@
 //! The first-order jet of a function of one complex variable.
 
 use super::NoDerivative;
-use super::rules::{int_power_partial, nonzero_modulus, takes_second};
+use super::rules::{int_power_partial, nonzero_modulus, sum, takes_second};
 use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
@@ -264,13 +264,6 @@ impl Rule<'_> {
             (a, b) = (self.g.widen(a), self.g.widen(b));
         }
         Some(self.g.apply(Prim::Select, &[condition, a, b]))
-    }
-}
-
-fn sum(g: &mut Graph, a: Option<Id>, b: Option<Id>) -> Option<Id> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(g.add(a, b)),
-        _ => a.or(b),
     }
 }
 

@@ -32,3 +32,11 @@ pub fn takes_second(g: &mut Graph, prim: Prim, a: Id, b: Id) -> Id {
         g.apply(Prim::Less, &[a, b])
     }
 }
+
+/// a + b, either of which may be an exact zero.
+pub fn sum(g: &mut Graph, a: Option<Id>, b: Option<Id>) -> Option<Id> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(g.add(a, b)),
+        _ => a.or(b),
+    }
+}

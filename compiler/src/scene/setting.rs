@@ -137,13 +137,16 @@ impl SettingSpec {
         let (lo, hi) = self.range;
         for &x in components {
             if !(lo..=hi).contains(&x) {
-                return Err(format!(
-                    "`{}` is between {lo:?} and {hi:?}, not {x}",
-                    self.name
-                ));
+                let wanted = match (lo.is_finite(), hi.is_finite()) {
+                    (true, false) if lo > 0.0 && lo < 1e-20 => "must be greater than 0".to_owned(),
+                    (true, false) => format!("must be at least {lo}"),
+                    (false, true) => format!("must be at most {hi}"),
+                    _ => format!("must lie between {lo:?} and {hi:?}"),
+                };
+                return Err(format!("`{}` {wanted}, not {x}", self.name));
             }
             if self.kind == SettingKind::Integer && x.fract() != 0.0 {
-                return Err(format!("`{}` is a whole number, not {x}", self.name));
+                return Err(format!("`{}` must be a whole number, not {x}", self.name));
             }
         }
         Ok(())

@@ -36,6 +36,13 @@ pub fn call(g: &mut Graph, prim: Prim, a: Id) -> Id {
     g.apply(prim, &[a])
 }
 
+/// a, and 1 where a is 0: a divisor for a quotient that is to be 0 there.
+pub fn nonzero(g: &mut Graph, a: Id) -> Id {
+    let (zero, one) = (g.real(0.0), g.real(1.0));
+    let vanishes = g.apply(Prim::Equal, &[a, zero]);
+    g.apply(Prim::Select, &[vanishes, one, a])
+}
+
 /// √(1 - x) √(1 + x), whose branch cuts are those of asin and acos; for reals √((1 - x)(1 + x)).
 pub fn sqrt_one_minus_square(g: &mut Graph, x: Id) -> Id {
     let (below, above) = (from(g, 1.0, x), plus(g, x, 1.0));

@@ -140,6 +140,17 @@ pub fn pair(prim: Prim) -> Option<Pair> {
 }
 
 impl Row {
+    /// The usual name, or the sign where there is no name: `sin`, `+`.
+    #[must_use]
+    pub fn sign(&self) -> &'static str {
+        let is_operand = |c: char| c.is_ascii_lowercase() || c == ' ';
+        let written = self.usage.rsplit(", ").next().unwrap_or(self.usage);
+        self.names
+            .first()
+            .copied()
+            .unwrap_or_else(|| written.trim_matches(is_operand))
+    }
+
     /// The operation's value, in `f64`; `None` where the operand types do not fit.
     #[must_use]
     pub fn evaluate(&self, prim: Prim, operands: &[Number]) -> Option<Number> {

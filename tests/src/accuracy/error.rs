@@ -12,7 +12,7 @@ pub enum Format {
 }
 
 /// The least value that rounds to an infinity of binary32.
-const OVERFLOW: f64 = f32::MAX as f64 * (1.0 + 1.0 / (1u64 << 25) as f64);
+pub const OVERFLOW: f64 = f32::MAX as f64 * (1.0 + 1.0 / (1u64 << 25) as f64);
 /// Tables write what is below this as a zero.
 const NOTHING: f64 = 1e-46;
 

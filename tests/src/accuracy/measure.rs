@@ -14,9 +14,26 @@ pub enum Metric {
     /// By the unit in the last place of each component.
     #[default]
     Component,
-    /// By that of the greatest component of the result, or of 1 where that is greater: for results that vanish
-    /// where nothing of their computation does.
+    /// By that of the greatest component of the result.
     Norm,
+    /// By that of the greatest component of the result, or of 1 where that is greater: an absolute error where the
+    /// result is small.
+    Unit,
+}
+
+impl Metric {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Component, Self::Norm, Self::Unit];
+
+    /// Its word in the table of bounds.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Component => "",
+            Self::Norm => "norm",
+            Self::Unit => "unit",
+        }
+    }
 }
 
 /// Errors over all cases.
@@ -64,13 +81,13 @@ impl Errors {
     }
 }
 
-/// Both quantities in both metrics.
+/// Both quantities in every metric, in the order of [`Metric::ALL`].
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
-    /// Of the value, by component and by norm.
-    pub value: [Errors; 2],
-    /// Of the derivative, likewise; `None` where the function has no derivative rule.
-    pub derivative: Option<[Errors; 2]>,
+    /// Of the value.
+    pub value: [Errors; 3],
+    /// Of the derivative; `None` where the function has no derivative rule.
+    pub derivative: Option<[Errors; 3]>,
 }
 
 /// What is asked to get a subject's derivative.
@@ -96,9 +113,7 @@ pub fn measure(subject: &Subject, machine: &Machine) -> Result<Measured, String>
     let columns = formula.ty.columns();
     let values = machine.run(&formula, What::Value, &points)?;
     let judged = |results: &[Vec<f64>], from: usize, of: fn(&Case) -> &[Expected]| {
-        [Metric::Component, Metric::Norm].map(|metric| {
-            judge(subject, machine.format(), results, from, of, metric)
-        })
+        Metric::ALL.map(|metric| judge(subject, machine.format(), results, from, of, metric))
     };
     let value = judged(&values, 0, |c| &c.value);
     if matches!(subject.row.derivative, Derivative::Missing) {
@@ -108,7 +123,11 @@ pub fn measure(subject: &Subject, machine: &Machine) -> Result<Measured, String>
         };
     }
     let slopes = machine.run(&formula, demand(subject), &points)?;
-    let derivative = Some(judged(&slopes, columns, |c| &c.derivative));
+    // where the value of binary32 overflows, what is computed from it is not judged
+    let slopes_of: fn(&Case) -> &[Expected] = |case| {
+        if case.value.iter().any(overflows) { &[] } else { &case.derivative }
+    };
+    let derivative = Some(judged(&slopes, columns, slopes_of));
     Ok(Measured { value, derivative })
 }
 
@@ -142,9 +161,14 @@ fn judge(
 fn case_error(format: Format, got: &[f64], expected: &[Expected], metric: Metric) -> f64 {
     let size = match metric {
         Metric::Component => 0.0,
-        Metric::Norm => expected.iter().map(size).fold(1.0, f64::max),
+        Metric::Norm => expected.iter().map(size).fold(0.0, f64::max),
+        Metric::Unit => expected.iter().map(size).fold(1.0, f64::max),
     };
     got.iter().zip(expected).map(|(&got, &e)| format.error(got, e, size)).fold(0.0, f64::max)
+}
+
+fn overflows(expected: &Expected) -> bool {
+    matches!(expected, Expected::Number { value, .. } if value.is_infinite())
 }
 
 fn size(expected: &Expected) -> f64 {

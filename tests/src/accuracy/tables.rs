@@ -5,6 +5,8 @@ const COMPLEX: &str = include_str!("../../data/oracle/complex.tsv");
 const REAL_EDGES: &str = include_str!("../../data/functions/real_edges.tsv");
 const COMPLEX_EDGES: &str = include_str!("../../data/functions/complex_edges.tsv");
 
+use super::error::OVERFLOW;
+
 /// What a number has to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expected {
@@ -88,12 +90,15 @@ fn value(cell: &str) -> Expected {
     }
 }
 
-/// A derivative: the sign of a zero is not stated, nor is a NaN of the oracle tables.
+/// A derivative: the sign of one that vanishes is not stated, nor is a NaN of the oracle tables.
 fn slope(cell: &str) -> Expected {
     match value(cell) {
         Expected::Number { value, .. } if value.is_nan() => Expected::Unstated,
-        Expected::Number { value, .. } if value == 0.0 => Expected::Number { value, signed: false },
-        other => other,
+        Expected::Number { value, .. } => {
+            let value = if value.abs() >= OVERFLOW { value * f64::INFINITY } else { value };
+            Expected::Number { value, signed: value.abs() > 1.0 }
+        }
+        Expected::Unstated => Expected::Unstated,
     }
 }
 

@@ -15,11 +15,12 @@ fn main() {
                 Err(e) => println!("{} {}: {e}", s.word, s.domain),
                 Ok(m) => {
                     for (k, e) in [Some(&m.value), m.derivative.as_ref()].into_iter().enumerate() {
-                        let Some([c, n]) = e else { continue };
+                        let Some([c, n, u]) = e else { continue };
                         println!(
-                            "{:14} {:8} {} {:5} {:12.2} {:10.2} norm {:12.2}  {:.0?} {}",
-                            s.word, s.domain.to_string(), ["f", "d"][k], c.count(), c.max(), c.percentile(), n.max(), t.elapsed(), c.worst
+                            "{:14} {:8} {} {:5} {:12.2} {:10.2} norm {:12.2} unit {:9.2} {:.0?} {}",
+                            s.word, s.domain.to_string(), ["f", "d"][k], c.count(), c.max(), c.percentile(), n.max(), u.max(), t.elapsed(), c.worst
                         );
+                        println!("        norm: {}", n.worst);
                         for w in &c.wrong {
                             println!("    WRONG {w}");
                         }
