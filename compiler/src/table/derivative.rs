@@ -31,6 +31,14 @@ pub fn square(g: &mut Graph, a: Id) -> Id {
     g.apply(Prim::PowInt(2), &[a])
 }
 
+/// i a for complex a, by exchange of the parts: a product would lose the sign of a zero, and with it the side of a
+/// cut.
+pub fn turn(g: &mut Graph, a: Id) -> Id {
+    let (re, im) = (call(g, Prim::Re, a), call(g, Prim::Im, a));
+    let minus = g.neg(im);
+    g.apply(Prim::Complex, &[minus, re])
+}
+
 /// A function of one operand.
 pub fn call(g: &mut Graph, prim: Prim, a: Id) -> Id {
     g.apply(prim, &[a])
