@@ -11,10 +11,11 @@ import random
 import sys
 
 import gallery as g
-from gallery import Dual, Num, absolute, cos, exp, greatest, hypot, hypot3, least, mp, sin
+from gallery import Dual, Num, absolute, cos, exp, greatest, hypot, hypot3, least, mp, sin, tan
 
 sinh = g.function(mp.sinh, mp.cosh, mp.sinh)
 cosh = g.function(mp.cosh, mp.sinh, mp.cosh)
+tanh = g.function(mp.tanh, lambda x: mp.sech(x) ** 2, lambda x: -2 * mp.sech(x) ** 2 * mp.tanh(x))
 
 
 def constant(like, c):
@@ -30,23 +31,20 @@ def smoothstep(a, b, x):
     return t * t * (3 - 2 * t)
 
 
-def blend(x, y, k):
-    h = greatest(1 - absolute(x - y) / k, constant(x, 0))
-    return h * h * k / 4
+def blend(x, y, k, sign):
+    """The polynomial minimum (sign 1) or maximum (sign -1) of width k."""
+    h = clamp(HALF + sign * (y - x) / (2 * k), constant(x, 0), constant(x, 1))
+    return y * (1 - h) + x * h - sign * (k * h * (1 - h))
 
 
 def step(edge, x):
     return constant(x, 0) if x < edge else constant(x, 1)
 
 
-def root(square):
-    return g.sqrt(square)
-
-
 HALF = mp.mpf("0.5")
 REAL = {
-    "sec": ("sec(x)", lambda x: 1 / cos(x)), "csc": ("csc(x)", lambda x: 1 / sin(x)), "cot": ("cot(x)", lambda x: cos(x) / sin(x)),
-    "sech": ("sech(x)", lambda x: 1 / cosh(x)), "csch": ("csch(x)", lambda x: 1 / sinh(x)), "coth": ("coth(x)", lambda x: cosh(x) / sinh(x)),
+    "sec": ("sec(x)", lambda x: 1 / cos(x)), "csc": ("csc(x)", lambda x: 1 / sin(x)), "cot": ("cot(x)", lambda x: 1 / tan(x)),
+    "sech": ("sech(x)", lambda x: 1 / cosh(x)), "csch": ("csch(x)", lambda x: 1 / sinh(x)), "coth": ("coth(x)", lambda x: 1 / tanh(x)),
     "mix": ("mix(1, 3, x)", lambda x: 1 * (1 - x) + 3 * x), "clamp": ("clamp(x, -1, 0.5)", lambda x: clamp(x, constant(x, -1), constant(x, HALF))),
     "saturate": ("saturate(x)", lambda x: clamp(x, constant(x, 0), constant(x, 1))), "step": ("step(0.5, x)", lambda x: step(HALF, x)),
     "smoothstep": ("smoothstep(-1, 2, x)", lambda x: smoothstep(-1, 2, x)),
@@ -57,7 +55,7 @@ PLANE = {
     "mix": ("mix(x, y, 0.25)", lambda x, y: x * (1 - HALF / 2) + y * (HALF / 2)), "lerp": ("lerp(2, x, y)", lambda x, y: 2 * (1 - y) + x * y),
     "clamp": ("clamp(1, x, y)", lambda x, y: least(greatest(constant(x, 1), x), y)),
     "step": ("step(x, y)", lambda x, y: step(x, y)),
-    "smin": ("smin(x, y, 0.5)", lambda x, y: least(x, y) - blend(x, y, HALF)), "smax": ("smax(x, y, 0.5)", lambda x, y: greatest(x, y) + blend(x, y, HALF)),
+    "smin": ("smin(x, y, 0.5)", lambda x, y: blend(x, y, HALF, 1)), "smax": ("smax(x, y, 0.5)", lambda x, y: blend(x, y, HALF, -1)),
     "length": ("length(vec2(x, y))", hypot), "distance": ("distance(vec2(x, y), vec2(1, 2))", lambda x, y: hypot(x - 1, y - 2)),
     "dot": ("dot(vec2(x, y), vec2(y, 2))", lambda x, y: x * y + y * 2), "vec2": ("dot(vec2(x), vec2(y, 3))", lambda x, y: x * y + x * 3),
     "rotate": ("rotate(vec2(x, y), 0.75).x", lambda x, y: mp.cos(mp.mpf("0.75")) * x - mp.sin(mp.mpf("0.75")) * y),
@@ -78,14 +76,18 @@ SPACE = {
     "vec4": ("length(vec4(x, y, z, 2))", lambda x, y, z: hypot(hypot3(x, y, z), constant(x, 2))),
     "mix": ("mix(x, y, z)", lambda x, y, z: x * (1 - z) + y * z), "clamp": ("clamp(x, y, z)", lambda x, y, z: least(greatest(x, y), z)),
     "smoothstep": ("smoothstep(x, y, z)", lambda x, y, z: smoothstep(x, y, z)),
-    "smin": ("smin(x, y, z)", lambda x, y, z: least(x, y) - blend(x, y, z)),
+    "smin": ("smin(x, y, z)", lambda x, y, z: blend(x, y, z, 1)),
 }
 HOLOMORPHIC = {
-    "sec": ("sec(z)", lambda z: 1 / cos(z)), "csc": ("csc(z)", lambda z: 1 / sin(z)), "cot": ("cot(z)", lambda z: cos(z) / sin(z)),
-    "sech": ("sech(z)", lambda z: 1 / cosh(z)), "csch": ("csch(z)", lambda z: 1 / sinh(z)), "coth": ("coth(z)", lambda z: cosh(z) / sinh(z)),
+    "sec": ("sec(z)", lambda z: 1 / cos(z)), "csc": ("csc(z)", lambda z: 1 / sin(z)), "cot": ("cot(z)", lambda z: 1 / tan(z)),
+    "sech": ("sech(z)", lambda z: 1 / cosh(z)), "csch": ("csch(z)", lambda z: 1 / sinh(z)), "coth": ("coth(z)", lambda z: 1 / tanh(z)),
     "add": ("z + (2 - i)", lambda z: z + mp.mpc(2, -1)), "sub": ("(1 + 2i) - z", lambda z: mp.mpc(1, 2) - z), "neg": ("-z", lambda z: -z),
     "mul": ("z exp(z)", lambda z: z * exp(z)), "powint": ("z^5", lambda z: z**5),
 }
+
+
+# their derivatives are products of a zero and an infinity where cosh overflows
+RECIPROCALS = {"sec", "csc", "sech", "csch"}
 
 
 def part(fn, dz, dzbar):
@@ -129,12 +131,20 @@ def main():
                 rng = random.Random(f"{name} {formula}")
                 special = [(0.5,) * len(names), tuple((1.0, -1.0, 2.0)[: len(names)]), (0.0,) * len(names)]
                 pts = g.points(rng, len(names), 3, special)
+                if name == "clamp" and len(names) > 1:  # an interval of one point: which bound holds is a convention
+                    pts = [p for p in pts if len(set(p)) > 1]
+                if name in RECIPROCALS:
+                    pts = [p for p in pts if abs(p[0]) < 500]
                 section(fh, name, ", ".join(names), formula, f, pts, [*names, "f", *slopes, *tail(slopes)])
         for table, slopes in ((HOLOMORPHIC, ["dz"]), (PAIR, ["dz", "dzbar"])):
             for name, (formula, f) in table.items():
                 rng = random.Random(f"{name} {formula}")
                 columns = ["z.re", "z.im", "f.re", "f.im"] + [f"{d}.{p}" for d in slopes for p in ("re", "im")] + tail(slopes)
                 pts = g.complex_points(rng, 3, [0, 1, 1.5707964, 1j, 40j, -40.0])
+                if name in ("abs", "arg"):  # no derivative there
+                    pts = [p for p in pts if p != (0.0, 0.0)]
+                if name in RECIPROCALS:
+                    pts = [p for p in pts if max(map(abs, p)) < 500]
                 section(fh, name, "z", formula, f, pts, columns, True, len(slopes) == 2)
 
 

@@ -1,7 +1,9 @@
 //! How accurate functions and formulas are: references, errors, bounds, and the evaluators that are judged.
 
+pub mod bounds;
 pub mod error;
 pub mod evaluators;
+pub mod formulas;
 pub mod measure;
 pub mod subjects;
 pub mod tables;

@@ -4,11 +4,21 @@ use pullback_runtime::Gpu;
 use pullback_tests::accuracy::evaluators::Machine;
 use pullback_tests::accuracy::measure::measure;
 use pullback_tests::accuracy::subjects::subjects;
+use pullback_tests::accuracy::formulas::{gallery, library};
 
 fn main() {
     let gpu = Gpu::open(&pullback_runtime::AdapterChoice::Software).unwrap();
     for machine in [Machine::Reference, Machine::Gpu(Box::new(gpu), Precision::Accurate)] {
         println!("== {:?}", machine.format());
+        for t in gallery().iter().chain(&library()) {
+            match t.measure(&machine) {
+                Ok(f) => {
+                    println!("K {:14} {:40} rows {:3} K {:12.3} {:12.3} {}", t.name, t.source.lines().last().unwrap(), f.rows, f.value, f.derivative, f.worst);
+                    for w in f.wrong { println!("   KWRONG {w}"); }
+                }
+                Err(e) => println!("K {}: {e}", t.name),
+            }
+        }
         for s in subjects() {
             let t = std::time::Instant::now();
             match measure(&s, &machine) {
