@@ -694,10 +694,11 @@ impl<'a> Checker<'a> {
             Space::Complex => &["z"],
             Space::Space => &["x", "y", "z"],
         };
-        let names: &[&'a str] = if free == ["p"] && space != Space::Complex {
-            &["p"]
-        } else {
-            coordinates
+        let names: &[&'a str] = match (free.as_slice(), space) {
+            (["p"], Space::Plane | Space::Space) => &["p"],
+            // a function of x alone
+            (["x"], Space::Plane) => &["x"],
+            _ => coordinates,
         };
         if let Some(stray) = free.iter().find(|n| !names.contains(n)) {
             self.diagnostics.push(
