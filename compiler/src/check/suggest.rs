@@ -20,7 +20,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
                 c,
             )
         })
-        .filter(|(d, c)| *d <= limit && *d < c.chars().count().max(2))
+        .filter(|(d, c)| *d <= limit && *d < c.chars().count().max(letters.len()))
         .min_by_key(|(d, c)| (*d, c.len(), *c))
         .map(|(_, c)| c)
 }
