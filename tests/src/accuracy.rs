@@ -5,5 +5,6 @@ pub mod error;
 pub mod evaluators;
 pub mod formulas;
 pub mod measure;
+pub mod report;
 pub mod subjects;
 pub mod tables;

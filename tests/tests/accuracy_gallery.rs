@@ -11,14 +11,24 @@ use pullback_tests::accuracy::formulas::{MOST, Table, gallery, library};
 fn check(tables: &[Table], machine: &Machine) {
     let mut found = Vec::new();
     for table in tables {
-        let name = format!("{} ({})", table.name, table.source.lines().last().unwrap_or(""));
+        let name = format!(
+            "{} ({})",
+            table.name,
+            table.source.lines().last().unwrap_or("")
+        );
         match table.measure(machine) {
             Err(reason) => found.push(format!("{name}: {reason}")),
             Ok(factors) => {
-                println!("{name}: K = {:.2}, {:.2}", factors.value, factors.derivative);
+                println!(
+                    "{name}: K = {:.2}, {:.2}",
+                    factors.value, factors.derivative
+                );
                 let most = factors.value.max(factors.derivative);
                 if most > MOST {
-                    found.push(format!("{name}: K = {most:.2}, not {MOST}: {}", factors.worst));
+                    found.push(format!(
+                        "{name}: K = {most:.2}, not {MOST}: {}",
+                        factors.worst
+                    ));
                 }
                 if factors.rows < 20 {
                     found.push(format!("{name}: only {} rows were judged", factors.rows));
@@ -27,7 +37,12 @@ fn check(tables: &[Table], machine: &Machine) {
             }
         }
     }
-    assert!(found.is_empty(), "{} violations\n{}", found.len(), found.join("\n"));
+    assert!(
+        found.is_empty(),
+        "{} violations\n{}",
+        found.len(),
+        found.join("\n")
+    );
 }
 
 #[test]
@@ -48,7 +63,9 @@ fn formulas_on_the_gpu_are_as_good_as_their_roundings() {
 fn every_formula_of_the_gallery_has_a_table() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/gallery");
     let names = |extension: &'static str, folder: &Path| -> BTreeSet<String> {
-        let files = std::fs::read_dir(folder).expect("a folder").map(|f| f.expect("a file").path());
+        let files = std::fs::read_dir(folder)
+            .expect("a folder")
+            .map(|f| f.expect("a file").path());
         files
             .filter(|f| f.extension().is_some_and(|e| e == extension))
             .filter_map(|f| Some(f.file_stem()?.to_str()?.to_owned()))

@@ -44,12 +44,27 @@ pub fn declared(subject: &Subject, machine: &Machine) -> Result<Declared, String
         .map(|line| line.split('\t').collect::<Vec<_>>())
         .find(|cells| cells.len() == 7 && cells[0] == subject.word && cells[1] == domain)
         .ok_or("no bound is declared")?;
-    let first = if matches!(machine, Machine::Reference) { 2 } else { 4 };
+    let first = if matches!(machine, Machine::Reference) {
+        2
+    } else {
+        4
+    };
     let reason = if row[6] == "-" { "" } else { row[6] };
     let value = bound(row[first]).ok_or("the value has no bound")?;
-    let declared = Declared { value, derivative: bound(row[first + 1]), reason };
-    let ordinary = if subject.domain == Domain::Real { ORDINARY.0 } else { ORDINARY.1 };
-    for bound in [Some(declared.value), declared.derivative].into_iter().flatten() {
+    let declared = Declared {
+        value,
+        derivative: bound(row[first + 1]),
+        reason,
+    };
+    let ordinary = if subject.domain == Domain::Real {
+        ORDINARY.0
+    } else {
+        ORDINARY.1
+    };
+    for bound in [Some(declared.value), declared.derivative]
+        .into_iter()
+        .flatten()
+    {
         let plain = bound.ulps <= ordinary && bound.metric == Metric::Component;
         if !plain && reason.is_empty() {
             return Err(format!("{bound:?} needs a reason"));
@@ -65,7 +80,10 @@ pub fn declared(subject: &Subject, machine: &Machine) -> Result<Declared, String
 fn bound(cell: &str) -> Option<Bound> {
     let (number, word) = cell.split_once(' ').unwrap_or((cell, ""));
     let metric = Metric::ALL.into_iter().find(|m| m.word() == word)?;
-    Some(Bound { ulps: number.parse().ok()?, metric })
+    Some(Bound {
+        ulps: number.parse().ok()?,
+        metric,
+    })
 }
 
 /// Everything that is wrong with what was measured; `tight` says whether bounds must not be far above it.
@@ -75,7 +93,12 @@ pub fn violations(measured: &Measured, declared: &Declared, tight: bool) -> Vec<
     let mut check = |what: &str, errors: &[Errors; 3], bound: Option<Bound>| {
         let place = |metric| Metric::ALL.iter().position(|m| *m == metric).unwrap_or(0);
         let errors = &errors[bound.map_or(0, |b| place(b.metric))];
-        found.extend(errors.wrong.iter().map(|w| format!("{what} of the wrong class: {w}")));
+        found.extend(
+            errors
+                .wrong
+                .iter()
+                .map(|w| format!("{what} of the wrong class: {w}")),
+        );
         let Some(Bound { ulps, .. }) = bound else {
             if errors.count() > 0 {
                 found.push(format!("no bound of the {what} is declared"));
@@ -83,13 +106,22 @@ pub fn violations(measured: &Measured, declared: &Declared, tight: bool) -> Vec<
             return;
         };
         if errors.max() > ulps {
-            found.push(format!("{what}: {:.2} ulp, not {ulps}: {}", errors.max(), errors.worst));
+            found.push(format!(
+                "{what}: {:.2} ulp, not {ulps}: {}",
+                errors.max(),
+                errors.worst
+            ));
         }
         if tight && ulps > 2.0 * errors.max() + 1.0 {
-            found.push(format!("{what}: the bound {ulps} is far above {:.2} ulp", errors.max()));
+            found.push(format!(
+                "{what}: the bound {ulps} is far above {:.2} ulp",
+                errors.max()
+            ));
         }
         if errors.count() == 0 {
-            found.push(format!("a bound of the {what} is declared, but there are no cases"));
+            found.push(format!(
+                "a bound of the {what} is declared, but there are no cases"
+            ));
         }
     };
     check("value", &measured.value, Some(declared.value));

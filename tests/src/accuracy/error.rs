@@ -33,7 +33,9 @@ impl Format {
     /// zero.
     #[must_use]
     pub fn error(self, got: f64, expected: Expected, size: f64) -> f64 {
-        let Expected::Number { value, signed } = expected else { return 0.0 };
+        let Expected::Number { value, signed } = expected else {
+            return 0.0;
+        };
         let wrong = f64::INFINITY;
         if value.is_nan() {
             return if got.is_nan() { 0.0 } else { wrong };
@@ -60,7 +62,11 @@ impl Format {
             return wrong;
         }
         let top = 2f64.powi(128);
-        let got = if got.is_infinite() { top.copysign(got) } else { got };
+        let got = if got.is_infinite() {
+            top.copysign(got)
+        } else {
+            got
+        };
         (got - value).abs() / self.ulp(value.abs().max(size.min(f64::from(f32::MAX))))
     }
 }
@@ -70,7 +76,14 @@ mod tests {
     use super::*;
 
     fn error(format: Format, got: f64, value: f64) -> f64 {
-        format.error(got, Expected::Number { value, signed: true }, 0.0)
+        format.error(
+            got,
+            Expected::Number {
+                value,
+                signed: true,
+            },
+            0.0,
+        )
     }
 
     #[test]
@@ -85,8 +98,16 @@ mod tests {
             (0.0, f64::NAN),
         ];
         for (got, value) in wrong {
-            assert_eq!(error(Format::Single, got, value), f64::INFINITY, "{got} {value}");
-            assert_eq!(error(Format::Double, got, value), f64::INFINITY, "{got} {value}");
+            assert_eq!(
+                error(Format::Single, got, value),
+                f64::INFINITY,
+                "{got} {value}"
+            );
+            assert_eq!(
+                error(Format::Double, got, value),
+                f64::INFINITY,
+                "{got} {value}"
+            );
         }
         assert_eq!(error(Format::Single, f64::NAN, f64::NAN), 0.0);
         assert_eq!(error(Format::Single, -f64::INFINITY, -f64::INFINITY), 0.0);
@@ -104,7 +125,10 @@ mod tests {
         let least = f64::from(f32::from_bits(1));
         assert_eq!(error(Format::Single, 3.0 * least, least), 2.0);
         assert!(error(Format::Single, f64::INFINITY, f64::from(f32::MAX)) <= 1.0);
-        let zero = Expected::Number { value: 0.0, signed: true };
+        let zero = Expected::Number {
+            value: 0.0,
+            signed: true,
+        };
         assert_eq!(Format::Single.error(1.5 * 2f64.powi(-23), zero, 1.0), 1.5);
     }
 }

@@ -40,7 +40,12 @@ impl Machine {
     ///
     /// # Errors
     /// The formula has none of these on this machine; in words.
-    pub fn run(&self, formula: &Formula, what: What, points: &[Point]) -> Result<Vec<Vec<f64>>, String> {
+    pub fn run(
+        &self,
+        formula: &Formula,
+        what: What,
+        points: &[Point],
+    ) -> Result<Vec<Vec<f64>>, String> {
         match self {
             Self::Reference => {
                 let mut evaluator = Evaluator::new(formula, what).map_err(|e| format!("{e:?}"))?;
@@ -66,11 +71,21 @@ fn on_gpu(gpu: &Gpu, module: &EvalModule, points: &[Point]) -> Result<Vec<Vec<f6
     let width = module.outputs.len();
     let mut out = Vec::new();
     for run in points.chunk_by(|a, b| a.params == b.params) {
-        let rows: Vec<f32> = run.iter().flat_map(|p| p.args.iter().map(|&x| x as f32)).collect();
+        let rows: Vec<f32> = run
+            .iter()
+            .flat_map(|p| p.args.iter().map(|&x| x as f32))
+            .collect();
         let mut results = Vec::new();
-        let surroundings = Surroundings { params: &run[0].params, ..Surroundings::default() };
+        let surroundings = Surroundings {
+            params: &run[0].params,
+            ..Surroundings::default()
+        };
         evaluator.eval(surroundings, run.len(), &rows, &mut results)?;
-        out.extend(results.chunks(width).map(|row| row.iter().map(|&x| f64::from(x)).collect()));
+        out.extend(
+            results
+                .chunks(width)
+                .map(|row| row.iter().map(|&x| f64::from(x)).collect()),
+        );
     }
     Ok(out)
 }

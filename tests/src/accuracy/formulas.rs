@@ -49,10 +49,42 @@ macro_rules! gallery {
 }
 
 const GALLERY: [(&str, &str, &str); 36] = gallery![
-    "barth-sextic", "bipolar", "blaschke", "branch-cut", "cardinal-sine", "cayley", "chladni", "chmutov", "clebsch",
-    "ding-dong", "dipole", "dome", "essential", "gyroid", "heart", "himmelblau", "interference", "joukowski", "kummer",
-    "lemniscate", "newton", "norms", "peaks", "rational", "saddle", "schwarz-p", "sin-rings", "smooth-union", "spiral",
-    "steiner", "tangent", "tangent-weave", "tanglecube", "torus", "twirl", "z-to-z",
+    "barth-sextic",
+    "bipolar",
+    "blaschke",
+    "branch-cut",
+    "cardinal-sine",
+    "cayley",
+    "chladni",
+    "chmutov",
+    "clebsch",
+    "ding-dong",
+    "dipole",
+    "dome",
+    "essential",
+    "gyroid",
+    "heart",
+    "himmelblau",
+    "interference",
+    "joukowski",
+    "kummer",
+    "lemniscate",
+    "newton",
+    "norms",
+    "peaks",
+    "rational",
+    "saddle",
+    "schwarz-p",
+    "sin-rings",
+    "smooth-union",
+    "spiral",
+    "steiner",
+    "tangent",
+    "tangent-weave",
+    "tanglecube",
+    "torus",
+    "twirl",
+    "z-to-z",
 ];
 
 const LIBRARY: &str = include_str!("../../data/functions/library.txt");
@@ -64,7 +96,12 @@ pub fn gallery() -> Vec<Table> {
         let mut lines = text.lines().skip(1);
         let columns = columns(lines.next().unwrap_or(""));
         let rows = lines.map(|line| line.split('\t').collect()).collect();
-        Table { name, source: source.to_owned(), columns, rows }
+        Table {
+            name,
+            source: source.to_owned(),
+            columns,
+            rows,
+        }
     };
     GALLERY.iter().map(table).collect()
 }
@@ -78,7 +115,12 @@ pub fn library() -> Vec<Table> {
             (Some(title), _) if title.contains(" | ") => {
                 let (name, source) = title.split_once(" | ").unwrap_or((title, ""));
                 let source = source.replace("f(x) =", "f(x: real) =") + "\n";
-                tables.push(Table { name, source, columns: Vec::new(), rows: Vec::new() });
+                tables.push(Table {
+                    name,
+                    source,
+                    columns: Vec::new(),
+                    rows: Vec::new(),
+                });
             }
             (Some(_), Some(table)) => table.columns = columns(line),
             (None, Some(table)) => table.rows.push(line.split('\t').collect()),
@@ -114,7 +156,10 @@ impl Table {
                 let re = self.place(&format!("{name}.re"));
                 let first = re.or_else(|| self.place(name)).unwrap_or(0);
                 let width = if re.is_some() { 2 } else { 1 };
-                Quantity { places: first..first + width, scale }
+                Quantity {
+                    places: first..first + width,
+                    scale,
+                }
             })
             .collect()
     }
@@ -125,7 +170,10 @@ impl Table {
     /// The machine cannot evaluate it; in words.
     pub fn measure(&self, machine: &Machine) -> Result<Factors, String> {
         let (formula, params) = self.formula();
-        let arity = self.place("f").or_else(|| self.place("f.re")).ok_or("no value column")?;
+        let arity = self
+            .place("f")
+            .or_else(|| self.place("f.re"))
+            .ok_or("no value column")?;
         let points: Vec<Point> = self
             .rows
             .iter()
@@ -135,7 +183,11 @@ impl Table {
             })
             .collect();
         let complex = formula.inputs.iter().any(|i| i.ty == Type::Complex);
-        let demand = if complex { What::Derivative } else { What::Gradient };
+        let demand = if complex {
+            What::Derivative
+        } else {
+            What::Gradient
+        };
         let values = machine.run(&formula, What::Value, &points)?;
         let slopes = machine.run(&formula, demand, &points)?;
         let mut factors = Factors::default();
@@ -168,8 +220,11 @@ impl Table {
         }
         factors.rows += 1;
         for (k, quantity) in self.quantities().into_iter().enumerate() {
-            let expected: Vec<f64> =
-                quantity.places.clone().map(|place| number(row[place])).collect();
+            let expected: Vec<f64> = quantity
+                .places
+                .clone()
+                .map(|place| number(row[place]))
+                .collect();
             if expected.iter().any(|e| e.is_nan() || e.abs() >= OVERFLOW) {
                 continue;
             }
@@ -179,7 +234,11 @@ impl Table {
                 sum.hypot(place(k).map_or(0.0, |got| got - expected[k]))
             });
             let describe = || {
-                format!("{} at {:?}: {results:?} for {expected:?}", self.columns[quantity.places.start], &row[..arity])
+                format!(
+                    "{} at {:?}: {results:?} for {expected:?}",
+                    self.columns[quantity.places.start],
+                    &row[..arity]
+                )
             };
             let Some(factor) = factor(norm, number(row[quantity.scale]), format) else {
                 factors.wrong.push(describe());
@@ -188,7 +247,11 @@ impl Table {
             if factor > factors.value.max(factors.derivative) {
                 factors.worst = describe();
             }
-            let slot = if k == 0 { &mut factors.value } else { &mut factors.derivative };
+            let slot = if k == 0 {
+                &mut factors.value
+            } else {
+                &mut factors.derivative
+            };
             *slot = slot.max(factor);
         }
     }
@@ -212,5 +275,6 @@ fn factor(error: f64, scale: f64, format: Format) -> Option<f64> {
 }
 
 fn number(cell: &str) -> f64 {
-    cell.parse().unwrap_or_else(|_| panic!("`{cell}` is not a number"))
+    cell.parse()
+        .unwrap_or_else(|_| panic!("`{cell}` is not a number"))
 }

@@ -108,7 +108,10 @@ pub fn measure(subject: &Subject, machine: &Machine) -> Result<Measured, String>
     let points: Vec<Point> = subject
         .cases
         .iter()
-        .map(|c| Point { args: c.args.clone(), params: c.params.clone() })
+        .map(|c| Point {
+            args: c.args.clone(),
+            params: c.params.clone(),
+        })
         .collect();
     let columns = formula.ty.columns();
     let values = machine.run(&formula, What::Value, &points)?;
@@ -119,13 +122,20 @@ pub fn measure(subject: &Subject, machine: &Machine) -> Result<Measured, String>
     if matches!(subject.row.derivative, Derivative::Missing) {
         return match machine.run(&formula, demand(subject), &points) {
             Ok(_) => Err("there is a derivative, but no rule".to_owned()),
-            Err(_) => Ok(Measured { value, derivative: None }),
+            Err(_) => Ok(Measured {
+                value,
+                derivative: None,
+            }),
         };
     }
     let slopes = machine.run(&formula, demand(subject), &points)?;
     // where the value of binary32 overflows, what is computed from it is not judged
     let slopes_of: fn(&Case) -> &[Expected] = |case| {
-        if case.value.iter().any(overflows) { &[] } else { &case.derivative }
+        if case.value.iter().any(overflows) {
+            &[]
+        } else {
+            &case.derivative
+        }
     };
     let derivative = Some(judged(&slopes, columns, slopes_of));
     Ok(Measured { value, derivative })
@@ -152,7 +162,15 @@ fn judge(
             error = error.min(case_error(format, got, of(flushed), metric));
         }
         errors.add(error, || {
-            format!("{}{:?} at {:?}{:?}: {:?} for {}", subject.word, subject.domain, case.args, case.params, got, words(of(case)))
+            format!(
+                "{}{:?} at {:?}{:?}: {:?} for {}",
+                subject.word,
+                subject.domain,
+                case.args,
+                case.params,
+                got,
+                words(of(case))
+            )
         });
     }
     errors
@@ -164,7 +182,10 @@ fn case_error(format: Format, got: &[f64], expected: &[Expected], metric: Metric
         Metric::Norm => expected.iter().map(size).fold(0.0, f64::max),
         Metric::Unit => expected.iter().map(size).fold(1.0, f64::max),
     };
-    got.iter().zip(expected).map(|(&got, &e)| format.error(got, e, size)).fold(0.0, f64::max)
+    got.iter()
+        .zip(expected)
+        .map(|(&got, &e)| format.error(got, e, size))
+        .fold(0.0, f64::max)
 }
 
 fn overflows(expected: &Expected) -> bool {
@@ -181,15 +202,22 @@ fn size(expected: &Expected) -> f64 {
 /// The case whose subnormal arguments are zeros of the same sign: a GPU may take them for that.
 fn flushed<'s>(subject: &'s Subject, case: &Case) -> Option<&'s Case> {
     let least = f64::from(f32::MIN_POSITIVE);
-    let flush = |x: &f64| if x.abs() < least { 0f64.copysign(*x) } else { *x };
-    let args: Vec<f64> = case.args.iter().map(flush).collect();
-    let same = |a: &[f64], b: &[f64]| {
-        a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+    let flush = |x: &f64| {
+        if x.abs() < least {
+            0f64.copysign(*x)
+        } else {
+            *x
+        }
     };
+    let args: Vec<f64> = case.args.iter().map(flush).collect();
+    let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
     if same(&args, &case.args) {
         return None;
     }
-    subject.cases.iter().find(|c| same(&c.args, &args) && c.params == case.params)
+    subject
+        .cases
+        .iter()
+        .find(|c| same(&c.args, &args) && c.params == case.params)
 }
 
 fn words(expected: &[Expected]) -> String {
@@ -197,5 +225,8 @@ fn words(expected: &[Expected]) -> String {
         Expected::Unstated => "-".to_owned(),
         Expected::Number { value, .. } => format!("{value:?}"),
     };
-    format!("[{}]", expected.iter().map(each).collect::<Vec<_>>().join(", "))
+    format!(
+        "[{}]",
+        expected.iter().map(each).collect::<Vec<_>>().join(", ")
+    )
 }

@@ -29,7 +29,13 @@ pub fn subjects() -> Vec<Subject> {
         for domain in [Domain::Real, Domain::Complex] {
             for (word, body, arity) in forms(row, domain) {
                 let source = source(domain, &body, arity);
-                out.push(Subject { word, domain, row, source, cases: cases(word, domain) });
+                out.push(Subject {
+                    word,
+                    domain,
+                    row,
+                    source,
+                    cases: cases(word, domain),
+                });
             }
         }
     }
@@ -44,7 +50,11 @@ fn forms(row: &'static Row, domain: Domain) -> Vec<(&'static str, String, usize)
         (Typing::Part, _) => 1,
         _ => return Vec::new(),
     };
-    let (a, b) = if domain == Domain::Real { ("x", "y") } else { ("z", "complex(a, b)") };
+    let (a, b) = if domain == Domain::Real {
+        ("x", "y")
+    } else {
+        ("z", "complex(a, b)")
+    };
     let on_reals = domain == Domain::Real;
     match (row.prim, row.names, arity) {
         (_, &[name, ..], 1) => vec![(name, format!("{name}({a})"), 1)],
@@ -53,13 +63,19 @@ fn forms(row: &'static Row, domain: Domain) -> Vec<(&'static str, String, usize)
         (Prim::Add, ..) if on_reals => vec![("add", format!("{a} + {b}"), 2)],
         (Prim::Sub, ..) if on_reals => vec![("sub", format!("{a} - {b}"), 2)],
         (Prim::Mul, ..) => vec![("mul", format!("{a} * {b}"), 2)],
-        (Prim::Div, ..) => vec![("div", format!("{a} / {b}"), 2), ("inverse", format!("1/{a}"), 1)],
+        (Prim::Div, ..) => vec![
+            ("div", format!("{a} / {b}"), 2),
+            ("inverse", format!("1/{a}"), 1),
+        ],
         (Prim::PowInt(_), ..) => {
             let mut powers = vec![("square", 2), ("pow7", 7)];
             if on_reals {
                 powers.extend([("cube", 3), ("inverse_square", -2)]);
             }
-            powers.into_iter().map(|(word, n)| (word, format!("{a}^{n}"), 1)).collect()
+            powers
+                .into_iter()
+                .map(|(word, n)| (word, format!("{a}^{n}"), 1))
+                .collect()
         }
         _ => Vec::new(),
     }

@@ -47,7 +47,11 @@ pub enum Domain {
 
 impl std::fmt::Display for Domain {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(if *self == Self::Real { "real" } else { "complex" })
+        f.write_str(if *self == Self::Real {
+            "real"
+        } else {
+            "complex"
+        })
     }
 }
 
@@ -62,31 +66,49 @@ pub fn cases(word: &str, domain: Domain) -> Vec<Case> {
         Domain::Complex => (COMPLEX, COMPLEX_EDGES),
     };
     let of_word = |table: &'static str| {
-        table.lines().filter(|l| !l.starts_with('#')).filter_map(move |line| {
-            let (name, rest) = line.split_once('\t')?;
-            (name == word).then(|| rest.split('\t').collect::<Vec<_>>())
-        })
+        table
+            .lines()
+            .filter(|l| !l.starts_with('#'))
+            .filter_map(move |line| {
+                let (name, rest) = line.split_once('\t')?;
+                (name == word).then(|| rest.split('\t').collect::<Vec<_>>())
+            })
     };
     let mut cases: Vec<Case> = of_word(oracle)
-        .map(|cells| if domain == Domain::Real { real_oracle(&cells) } else { complex_oracle(&cells) })
+        .map(|cells| {
+            if domain == Domain::Real {
+                real_oracle(&cells)
+            } else {
+                complex_oracle(&cells)
+            }
+        })
         .collect();
-    cases.extend(
-        of_word(edges).map(|cells| {
-            if domain == Domain::Real { real_edge(&cells) } else { complex_edge(&cells) }
-        }),
-    );
+    cases.extend(of_word(edges).map(|cells| {
+        if domain == Domain::Real {
+            real_edge(&cells)
+        } else {
+            complex_edge(&cells)
+        }
+    }));
     cases
 }
 
 fn number(cell: &str) -> f64 {
-    cell.parse().unwrap_or_else(|_| panic!("`{cell}` is not a number"))
+    cell.parse()
+        .unwrap_or_else(|_| panic!("`{cell}` is not a number"))
 }
 
 fn value(cell: &str) -> Expected {
     match cell.strip_prefix('±') {
-        Some(size) => Expected::Number { value: number(size), signed: false },
+        Some(size) => Expected::Number {
+            value: number(size),
+            signed: false,
+        },
         None if cell == "-" => Expected::Unstated,
-        None => Expected::Number { value: number(cell), signed: true },
+        None => Expected::Number {
+            value: number(cell),
+            signed: true,
+        },
     }
 }
 
@@ -95,8 +117,15 @@ fn slope(cell: &str) -> Expected {
     match value(cell) {
         Expected::Number { value, .. } if value.is_nan() => Expected::Unstated,
         Expected::Number { value, .. } => {
-            let value = if value.abs() >= OVERFLOW { value * f64::INFINITY } else { value };
-            Expected::Number { value, signed: value.abs() > 1.0 }
+            let value = if value.abs() >= OVERFLOW {
+                value * f64::INFINITY
+            } else {
+                value
+            };
+            Expected::Number {
+                value,
+                signed: value.abs() > 1.0,
+            }
         }
         Expected::Unstated => Expected::Unstated,
     }
@@ -104,7 +133,10 @@ fn slope(cell: &str) -> Expected {
 
 /// A value of the oracle tables, which do not state the sign of a zero.
 fn unsigned(cell: &str) -> Expected {
-    Expected::Number { value: number(cell), signed: false }
+    Expected::Number {
+        value: number(cell),
+        signed: false,
+    }
 }
 
 fn real_oracle(cells: &[&'static str]) -> Case {
@@ -130,23 +162,39 @@ fn complex_oracle(cells: &[&'static str]) -> Case {
 
 /// `x y value dx dy notes`
 fn real_edge(cells: &[&'static str]) -> Case {
-    let &[x, y, of, dx, dy, notes] = cells else { panic!("{cells:?}") };
+    let &[x, y, of, dx, dy, notes] = cells else {
+        panic!("{cells:?}")
+    };
     let binary = y != "-";
     Case {
-        args: if binary { vec![number(x), number(y)] } else { vec![number(x)] },
+        args: if binary {
+            vec![number(x), number(y)]
+        } else {
+            vec![number(x)]
+        },
         params: Vec::new(),
         value: vec![value(of)],
-        derivative: if binary { vec![slope(dx), slope(dy)] } else { vec![slope(dx)] },
+        derivative: if binary {
+            vec![slope(dx), slope(dy)]
+        } else {
+            vec![slope(dx)]
+        },
         notes,
     }
 }
 
 /// `z.re z.im w.re w.im f.re f.im d.re d.im notes`
 fn complex_edge(cells: &[&'static str]) -> Case {
-    let &[x, y, u, v, re, im, d_re, d_im, notes] = cells else { panic!("{cells:?}") };
+    let &[x, y, u, v, re, im, d_re, d_im, notes] = cells else {
+        panic!("{cells:?}")
+    };
     Case {
         args: vec![number(x), number(y)],
-        params: if u == "-" { Vec::new() } else { vec![number(u), number(v)] },
+        params: if u == "-" {
+            Vec::new()
+        } else {
+            vec![number(u), number(v)]
+        },
         value: vec![value(re), value(im)],
         derivative: vec![slope(d_re), slope(d_im)],
         notes,

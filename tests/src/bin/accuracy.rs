@@ -1,42 +1,70 @@
-//! Measures the accuracy of every function.
-use pullback_compiler::lower::Precision;
-use pullback_runtime::Gpu;
-use pullback_tests::accuracy::evaluators::Machine;
-use pullback_tests::accuracy::measure::measure;
-use pullback_tests::accuracy::subjects::subjects;
-use pullback_tests::accuracy::formulas::{gallery, library};
+//! Measures how accurate every function and formula is on an adapter, and prints tables. All data is in the binary.
 
-fn main() {
-    let gpu = Gpu::open(&pullback_runtime::AdapterChoice::Software).unwrap();
-    for machine in [Machine::Reference, Machine::Gpu(Box::new(gpu), Precision::Accurate)] {
-        println!("== {:?}", machine.format());
-        for t in gallery().iter().chain(&library()) {
-            match t.measure(&machine) {
-                Ok(f) => {
-                    println!("K {:14} {:40} rows {:3} K {:12.3} {:12.3} {}", t.name, t.source.lines().last().unwrap(), f.rows, f.value, f.derivative, f.worst);
-                    for w in f.wrong { println!("   KWRONG {w}"); }
-                }
-                Err(e) => println!("K {}: {e}", t.name),
+use std::process::ExitCode;
+
+use clap::Parser;
+use pullback_compiler::lower::Precision;
+use pullback_runtime::{AdapterChoice, Gpu};
+use pullback_tests::accuracy::evaluators::Machine;
+use pullback_tests::accuracy::formulas::{gallery, library};
+use pullback_tests::accuracy::report::{Report, formulas, functions};
+use pullback_tests::accuracy::subjects::subjects;
+
+/// Errors of every function in units in the last place, and of every formula of the gallery in units of the errors
+/// of its roundings, against references of high precision.
+#[derive(Parser)]
+struct Options {
+    /// `auto`, `gpu`, `software`, or part of an adapter's name; `reference` for the f64 evaluator
+    #[arg(long, default_value = "auto")]
+    adapter: String,
+    /// Prints tables of Markdown
+    #[arg(long)]
+    markdown: bool,
+}
+
+fn main() -> ExitCode {
+    let options = Options::parse();
+    let (machine, builtins) = if options.adapter == "reference" {
+        (Machine::Reference, None)
+    } else {
+        let choice: AdapterChoice = options.adapter.parse().unwrap_or_default();
+        match Gpu::open(&choice) {
+            Ok(gpu) => {
+                println!("{}\n", gpu.adapter());
+                let gpu = Box::new(gpu);
+                let builtins = Machine::Gpu(gpu.clone(), Precision::Fast);
+                (Machine::Gpu(gpu, Precision::Accurate), Some(builtins))
+            }
+            Err(error) => {
+                eprintln!("{error}");
+                return ExitCode::FAILURE;
             }
         }
-        for s in subjects() {
-            let t = std::time::Instant::now();
-            match measure(&s, &machine) {
-                Err(e) => println!("{} {}: {e}", s.word, s.domain),
-                Ok(m) => {
-                    for (k, e) in [Some(&m.value), m.derivative.as_ref()].into_iter().enumerate() {
-                        let Some([c, n, u]) = e else { continue };
-                        println!(
-                            "{:14} {:8} {} {:5} {:12.2} {:10.2} norm {:12.2} unit {:9.2} {:.0?} {}",
-                            s.word, s.domain.to_string(), ["f", "d"][k], c.count(), c.max(), c.percentile(), n.max(), u.max(), t.elapsed(), c.worst
-                        );
-                        println!("        norm: {}", n.worst);
-                        for w in &c.wrong {
-                            println!("    WRONG {w}");
-                        }
-                    }
-                }
-            }
-        }
+    };
+    let reports = [
+        (
+            "Functions, in ulp",
+            functions(&subjects(), &machine, builtins.as_ref()),
+        ),
+        ("Gallery", formulas(&gallery(), &machine)),
+        ("Vectors and the library", formulas(&library(), &machine)),
+    ];
+    for (title, report) in &reports {
+        let mark = if options.markdown { "#### " } else { "" };
+        println!("{mark}{title}\n\n{}", report.text(options.markdown));
     }
+    verdict(reports.iter().map(|(_, report)| report))
+}
+
+fn verdict<'a>(reports: impl Iterator<Item = &'a Report>) -> ExitCode {
+    let broken: Vec<&String> = reports.flat_map(|r| &r.broken).collect();
+    if broken.is_empty() {
+        println!("Every bound holds.");
+        return ExitCode::SUCCESS;
+    }
+    println!("{} bounds do not hold:", broken.len());
+    for line in broken {
+        println!("- {line}");
+    }
+    ExitCode::FAILURE
 }
