@@ -7,4 +7,5 @@ pub mod formulas;
 pub mod measure;
 pub mod report;
 pub mod subjects;
+pub mod sweep;
 pub mod tables;

@@ -8,13 +8,18 @@ use pullback_tests::accuracy::evaluators::{Machine, is_reference_adapter, suite_
 use pullback_tests::accuracy::formulas::library;
 use pullback_tests::accuracy::measure::measure;
 use pullback_tests::accuracy::subjects::{Subject, subjects};
+use pullback_tests::accuracy::sweep::sweep;
 
 /// Runs every function, prints what was measured, and fails with every violation.
 fn check(machine: &Machine, tight: bool) {
     let mut found = Vec::new();
-    for subject in subjects() {
+    for subject in &subjects() {
         let name = format!("{} ({})", subject.word, subject.domain);
-        let measured = match measure(&subject, machine) {
+        let cases = |subject: &Subject| match machine {
+            Machine::Reference => Ok(subject.clone()),
+            Machine::Gpu(..) => sweep(subject),
+        };
+        let measured = match cases(subject).and_then(|subject| measure(&subject, machine)) {
             Ok(measured) => measured,
             Err(reason) => {
                 found.push(format!("{name}: {reason}"));
@@ -22,7 +27,7 @@ fn check(machine: &Machine, tight: bool) {
             }
         };
         println!("{name}: {:.2} ulp", measured.value[0].max());
-        match declared(&subject, machine) {
+        match declared(subject, machine) {
             Ok(bounds) => {
                 let wrong = violations(&measured, &bounds, tight);
                 found.extend(wrong.into_iter().map(|v| format!("{name}: {v}")));

@@ -11,7 +11,7 @@ const TABLE: &str = include_str!("bounds.tsv");
 /// Above this a bound needs a reason: of a real function, and of each component of a complex one.
 const ORDINARY: (f64, f64) = (4.0, 8.0);
 /// No reason is good enough for more: on a GPU, and in the reference, whose unit is 2²⁹ times smaller.
-const CAP: (f64, f64) = (40.0, 128.0);
+const CAP: (f64, f64) = (96.0, 128.0);
 
 /// A declared bound in units in the last place.
 #[derive(Clone, Copy, Debug, PartialEq)]

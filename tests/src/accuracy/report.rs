@@ -7,6 +7,7 @@ use super::evaluators::Machine;
 use super::formulas::{MOST, Table};
 use super::measure::{Errors, Metric, measure};
 use super::subjects::Subject;
+use super::sweep::sweep;
 use super::tables::Domain;
 
 /// A table of words, and what is wrong with what it says.
@@ -62,7 +63,11 @@ pub fn functions(subjects: &[Subject], machine: &Machine, builtins: Option<&Mach
             Domain::Real => subject.word.to_owned(),
             Domain::Complex => format!("{} (complex)", subject.word),
         };
-        let (measured, bounds) = match (measure(subject, machine), declared(subject, machine)) {
+        let measured = match machine {
+            Machine::Reference => measure(subject, machine),
+            Machine::Gpu(..) => sweep(subject).and_then(|swept| measure(&swept, machine)),
+        };
+        let (measured, bounds) = match (measured, declared(subject, machine)) {
             (Ok(measured), Ok(bounds)) => (measured, bounds),
             (Err(reason), _) | (_, Err(reason)) => {
                 report.broken.push(format!("{name}: {reason}"));
@@ -179,4 +184,31 @@ pub fn formulas(tables: &[Table], machine: &Machine) -> Report {
         }
     }
     report
+}
+
+/// Errors of every function in every metric, for the table of bounds: `function domain`, then for value and
+/// derivative the largest error by component, by norm and by unit.
+#[must_use]
+pub fn raw(subjects: &[Subject], machine: &Machine) -> String {
+    let mut out = String::new();
+    for subject in subjects {
+        let swept = match machine {
+            Machine::Reference => Ok(subject.clone()),
+            Machine::Gpu(..) => sweep(subject),
+        };
+        let Ok(measured) = swept.and_then(|s| measure(&s, machine)) else {
+            continue;
+        };
+        let mut cells = vec![subject.word.to_owned(), subject.domain.to_string()];
+        for errors in [Some(&measured.value), measured.derivative.as_ref()] {
+            match errors {
+                Some(errors) if errors[0].count() > 0 => {
+                    cells.extend(errors.iter().map(|e| format!("{:.4}", e.max())));
+                }
+                _ => cells.extend(["-", "-", "-"].map(str::to_owned)),
+            }
+        }
+        out.push_str(&(cells.join("\t") + "\n"));
+    }
+    out
 }

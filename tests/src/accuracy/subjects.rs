@@ -7,7 +7,7 @@ use pullback_compiler::table::{Row, Typing, rows};
 use super::tables::{Case, Domain, cases};
 
 /// A function with its cases.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Subject {
     /// Its word in the tables: its name, or that of the operation.
     pub word: &'static str,

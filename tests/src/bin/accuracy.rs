@@ -7,7 +7,7 @@ use pullback_compiler::lower::Precision;
 use pullback_runtime::{AdapterChoice, Gpu};
 use pullback_tests::accuracy::evaluators::Machine;
 use pullback_tests::accuracy::formulas::{gallery, library};
-use pullback_tests::accuracy::report::{Report, formulas, functions};
+use pullback_tests::accuracy::report::{Report, formulas, functions, raw};
 use pullback_tests::accuracy::subjects::subjects;
 
 /// Errors of every function in units in the last place, and of every formula of the gallery in units of the errors
@@ -20,6 +20,9 @@ struct Options {
     /// Prints tables of Markdown
     #[arg(long)]
     markdown: bool,
+    /// Prints the largest errors by component, by norm and by unit, from which bounds are declared
+    #[arg(long)]
+    raw: bool,
 }
 
 fn main() -> ExitCode {
@@ -41,6 +44,10 @@ fn main() -> ExitCode {
             }
         }
     };
+    if options.raw {
+        print!("{}", raw(&subjects(), &machine));
+        return ExitCode::SUCCESS;
+    }
     let reports = [
         (
             "Functions, in ulp",
