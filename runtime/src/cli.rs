@@ -10,7 +10,6 @@ mod functions;
 mod overrides;
 mod progress;
 mod render;
-mod scale;
 mod scenes;
 mod source;
 mod spelling;

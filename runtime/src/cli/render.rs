@@ -6,12 +6,14 @@ use clap::{Args, ValueEnum};
 use pullback_compiler::scene::{SettingKind, Space};
 use pullback_compiler::{Picture, SettingValue};
 use pullback_runtime::render::{MAX_SAMPLES, MAX_SIDE};
-use pullback_runtime::{Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, image_file};
+use pullback_runtime::{
+    Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, fill_in_scale, image_file,
+};
 
 use super::failure::Failure;
 use super::progress::{Counted, Progress};
 use super::source::Source;
-use super::{Console, Device, Input, Numbers, Output, Settings, Which, overrides, scale};
+use super::{Console, Device, Input, Numbers, Output, Settings, Which, overrides};
 
 /// Arguments of `pullback render`.
 #[derive(Debug, Args)]
@@ -22,7 +24,7 @@ pub(super) struct RenderArguments {
     output: Output,
     /// Width and height of the picture in pixels
     #[arg(long, default_value = "1200x900", value_name = "WxH", value_parser = size)]
-    pub(super) size: Size,
+    size: Size,
     /// Supersamples per axis of a pixel
     #[arg(long, default_value_t = 2, value_name = "N",
           value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
@@ -34,7 +36,7 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "H", value_parser = positive, allow_hyphen_values = true)]
     height: Option<f64>,
     #[command(flatten)]
-    pub(super) settings: Settings,
+    settings: Settings,
     #[command(flatten)]
     device: Device,
     /// The shader stage that computes the pixels
@@ -60,7 +62,14 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     let (params, mut settings) =
         overrides::for_picture(&arguments.settings.set, &source.program, picture)?;
     let view = view(arguments, picture, &settings)?;
-    scale::fill_in(&mut settings, picture, &view, arguments, &params);
+    fill_in_scale(
+        &mut settings,
+        picture,
+        &view,
+        arguments.size,
+        &params,
+        arguments.settings.time,
+    );
     let precision = arguments.numbers.into();
     let scene = source.expect(source.program.scene_module(index, precision), console)?;
     let bytes = scene.pack_settings(&settings);

@@ -2,9 +2,8 @@
 
 use pullback_compiler::module::{Evaluator, What};
 use pullback_compiler::{Picture, SettingValue};
-use pullback_runtime::View;
 
-use super::render::RenderArguments;
+use crate::render::{Size, View};
 
 /// Samples along each side of the view.
 const SAMPLES: usize = 33;
@@ -16,12 +15,13 @@ const LINES: f64 = 4.0;
 
 /// Sets an automatic `color_scale` from the values that the formula takes in the view, in f64, such that level lines
 /// stand at round values.
-pub(super) fn fill_in(
+pub fn fill_in_scale(
     settings: &mut [SettingValue],
     picture: &Picture,
     view: &View,
-    arguments: &RenderArguments,
+    size: Size,
     params: &[f64],
+    time: f64,
 ) {
     let Some(setting) = settings.iter_mut().find(|s| s.spec.name == "color_scale") else {
         return;
@@ -32,15 +32,15 @@ pub(super) fn fill_in(
     let Ok(mut evaluator) = Evaluator::new(&picture.formula, What::Value) else {
         return;
     };
-    let width = view.height * f64::from(arguments.size.width) / f64::from(arguments.size.height);
-    let pixel = view.height / f64::from(arguments.size.height);
+    let width = view.height * f64::from(size.width) / f64::from(size.height);
+    let pixel = view.height / f64::from(size.height);
     let mut sizes = Vec::with_capacity(SAMPLES * SAMPLES);
     for k in 0..SAMPLES * SAMPLES {
         let place = |k: usize| (k as f64 + 0.5) / SAMPLES as f64 - 0.5;
         let x = view.center[0] + place(k % SAMPLES) * width;
         let y = view.center[1] + place(k / SAMPLES) * view.height;
         let mut value = [f64::NAN];
-        evaluator.eval(params, arguments.settings.time, pixel, &[x, y], &mut value);
+        evaluator.eval(params, time, pixel, &[x, y], &mut value);
         if value[0].is_finite() {
             sizes.push(value[0].abs());
         }
