@@ -123,58 +123,75 @@ fn opposite(a: Sample, b: Sample) -> bool {
     return (a.value < 0.0) != (b.value < 0.0);
 }
 
-// The first hit on the ray between 0 and `extent`, looked for in `count` equal steps.
+// The first hit on the ray between 0 and `extent`, looked for in `count` equal steps. The inner loop only walks, so
+// that rays side by side walk together to where each has something to search, and then search together.
 fn march(ray: Ray, extent: f32, count: u32) -> Hit {
     let step = extent / f32(count);
     var a = sample_ray(ray, 0.0);
-    for (var k = 1u; k <= count; k++) {
-        let b = sample_ray(ray, f32(k) * step);
-        if a.valid && b.valid {
-            if opposite(a, b) || may_dip(a, b) {
-                let hit = hit_between(ray, a, b);
-                if hit.found {
-                    return hit;
-                }
-            }
-        } else if a.valid != b.valid {
-            let hit = hit_at_domain_edge(ray, a, b);
+    var b = a;
+    var k = 1u;
+    while k <= count {
+        var promising = false;
+        while k <= count && !promising {
+            a = b;
+            b = sample_ray(ray, f32(k) * step);
+            promising = may_hit(a, b);
+            k++;
+        }
+        if promising {
+            let hit = search_step(ray, a, b);
             if hit.found {
                 return hit;
             }
         }
-        a = b;
     }
     return NO_HIT;
 }
 
-fn hit_between(ray: Ray, a: Sample, b: Sample) -> Hit {
-    if opposite(a, b) {
-        return refine_crossing(ray, a, b);
+// Whether the step from a to b may hold the surface.
+fn may_hit(a: Sample, b: Sample) -> bool {
+    if a.valid && b.valid {
+        return opposite(a, b) || may_dip(a, b);
     }
-    return search_dip(ray, a, b);
+    return a.valid != b.valid;
 }
 
-// One end of the step is outside the domain of f: bisect to where f ceases, then look on the valid side.
-fn hit_at_domain_edge(ray: Ray, a: Sample, b: Sample) -> Hit {
-    var good = a;
-    var bad = b.t;
+// The first hit between two samples of which `may_hit` is true.
+fn search_step(ray: Ray, a: Sample, b: Sample) -> Hit {
+    var near = a;
+    var far = b;
     if !a.valid {
-        good = b;
-        bad = a.t;
+        near = b;
+        far = a;
     }
+    if !far.valid {
+        far = last_valid(ray, near, far.t);
+    } else if !opposite(a, b) {
+        let dip = search_dip(ray, a, b);
+        if dip.touching {
+            return Hit(dip.extremum.t, true, true);
+        }
+        far = dip.extremum;
+    }
+    if opposite(near, far) {
+        return refine_crossing(ray, near, far);
+    }
+    return NO_HIT;
+}
+
+// Where f ceases to be defined between a valid sample and a bad place, by bisection from the valid side.
+fn last_valid(ray: Ray, good: Sample, bad: f32) -> Sample {
     var edge = good;
+    var beyond = bad;
     for (var k = 0; k < 12; k++) {
-        let middle = sample_ray(ray, 0.5 * (edge.t + bad));
+        let middle = sample_ray(ray, 0.5 * (edge.t + beyond));
         if middle.valid {
             edge = middle;
         } else {
-            bad = middle.t;
+            beyond = middle.t;
         }
     }
-    if opposite(good, edge) {
-        return refine_crossing(ray, good, edge);
-    }
-    return NO_HIT;
+    return edge;
 }
 
 // Whether a step whose ends have the same sign may hold two crossings: both slopes lead towards the level, and the
@@ -196,29 +213,36 @@ fn may_dip(a: Sample, b: Sample) -> bool {
     return met <= 0.1 * max(va, vb) * (f + r);
 }
 
+// What was found between two samples of the same sign: a sample beyond the level, or else the one nearest to it.
+struct Dip {
+    extremum: Sample,
+    touching: bool,  // the nearest is the level, to rounding
+}
+
 // Looks for the extremum between two samples of the same sign by regula falsi on the slope (Illinois: Dowell and
 // Jarratt 1971), until a sample lies beyond the level or the tangents show that none can.
-fn search_dip(ray: Ray, a: Sample, b: Sample) -> Hit {
+fn search_dip(ray: Ray, a: Sample, b: Sample) -> Dip {
     var low = a;
     var high = b;
     var low_weight = 1.0;
     var high_weight = 1.0;
-    var nearest = min(abs(a.value), abs(b.value));
-    var touch = a.t;
+    var nearest = a;
+    if abs(b.value) < abs(a.value) {
+        nearest = b;
+    }
     for (var k = 0; k < 10; k++) {
         let down = low_weight * abs(low.slope);
         let up = high_weight * abs(high.slope);
         let part = clamp(down / max(down + up, 1e-37), 0.02, 0.98);
         let middle = sample_ray(ray, mix(low.t, high.t, part));
         if !middle.valid {
-            return NO_HIT;
+            return Dip(a, false);
         }
         if opposite(a, middle) {
-            return refine_crossing(ray, a, middle);
+            return Dip(middle, false);
         }
-        if abs(middle.value) <= nearest {
-            nearest = abs(middle.value);
-            touch = middle.t;
+        if abs(middle.value) <= abs(nearest.value) {
+            nearest = middle;
         }
         if (middle.slope < 0.0) == (a.slope < 0.0) {
             low = middle;
@@ -235,7 +259,7 @@ fn search_dip(ray: Ray, a: Sample, b: Sample) -> Hit {
     }
     // Even roots: the extremum equals the level to rounding.
     let size = max(abs(a.value), abs(b.value));
-    return Hit(touch, nearest <= 3e-7 * size, true);
+    return Dip(nearest, abs(nearest.value) <= 3e-7 * size);
 }
 
 // Root between two samples of opposite sign, to the resolution of f32, by Chandrupatla's method (Adv. Eng. Softw.
@@ -420,9 +444,8 @@ fn wall_at(p: vec3f, n: vec3f, direction: vec3f, footprint: f32, pixel: vec2f, b
     let along = cross(n, flat / slope);
     // Change of value per pixel across the line.
     let rate = 1.0 / max(screen_distance(1.0 / slope, along, n, direction, footprint), 1e-30);
-    if settings.isoline_spacing > 0.0 {
-        let covered = family_coverage(value, rate, window);
-        wall = paint(wall, mix(side, INK, 0.45), covered * select(0.0, 0.5, behind));
+    if behind && settings.isoline_spacing > 0.0 {
+        wall = paint(wall, mix(side, INK, 0.45), 0.5 * family_coverage(value, rate, window));
     }
     let away = min(abs(value) / max(rate, 1e-30), 1e9);
     let level_line = line_coverage(away, 2.0 * settings.isoline_width, window);
@@ -547,22 +570,28 @@ fn shade(pixel: vec2f) -> vec4f {
     let span = box_span(ray.origin, ray.direction, settings.center, settings.box);
     let enter = max(span.x, 0.0);
     let extent = span.y - enter;
-    if !(extent > 0.0) {
-        return vec4f(surroundings(ray), 1.0);
-    }
-    let pixel_slope = slope_per_pixel(view.size, clamp(settings.fov, 1.0, 120.0) * DEGREE);
+    let boxed = extent > 0.0;
     // The march starts at the box, so that f32 resolves it independently of the camera's distance.
     let inner = Ray(ray.origin + enter * ray.direction, ray.direction);
     let count = step_count(extent, settings.steps);
-    let hit = march(inner, extent, count);
+    var hit = NO_HIT;
+    if boxed {
+        hit = march(inner, extent, count);
+    }
     var colour: vec3f;
     if hit.found {
         colour = surface_colour(inner, hit, extent / f32(count));
     } else {
-        colour = over_wall(surroundings(ray), ray, span.y, pixel, pixel_slope, true);
+        colour = surroundings(ray);
     }
-    if span.x > 0.0 {
-        colour = over_wall(colour, ray, span.x, pixel, pixel_slope, false);
+    if boxed {
+        let pixel_slope = slope_per_pixel(view.size, clamp(settings.fov, 1.0, 120.0) * DEGREE);
+        if !hit.found {
+            colour = over_wall(colour, ray, span.y, pixel, pixel_slope, true);
+        }
+        if span.x > 0.0 {
+            colour = over_wall(colour, ray, span.x, pixel, pixel_slope, false);
+        }
     }
     return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
 }
