@@ -10,7 +10,12 @@ use pullback_compiler::check::is_builtin_function;
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{Program, SceneModule, compile};
 
-const STAGES: [&str; 4] = ["parse", "check and build", "derive, lower, link", "compact, validate"];
+const STAGES: [&str; 4] = [
+    "parse",
+    "check and build",
+    "derive, lower, link",
+    "compact, validate",
+];
 
 fn main() {
     let mut gallery: Vec<(String, String)> = Vec::new();
@@ -19,7 +24,10 @@ fn main() {
         let path = entry.path();
         if path.extension().is_some_and(|e| e == "pull") {
             let name = path.file_stem().map(|s| s.to_string_lossy().into_owned());
-            gallery.push((name.unwrap_or_default(), std::fs::read_to_string(&path).expect("a file")));
+            gallery.push((
+                name.unwrap_or_default(),
+                std::fs::read_to_string(&path).expect("a file"),
+            ));
         }
     }
     gallery.sort();
@@ -42,11 +50,17 @@ fn gallery_table(gallery: &[(String, String)]) {
         *median = self::median(all.iter().map(|r| r[k]).collect());
     }
     println!("| **median** | {} |", cells(&medians));
-    println!("\nslowest total: {:.0}", all.iter().map(|r| r[4]).fold(0.0, f64::max));
+    println!(
+        "\nslowest total: {:.0}",
+        all.iter().map(|r| r[4]).fold(0.0, f64::max)
+    );
 }
 
 fn cells(row: &[f64; 5]) -> String {
-    row.iter().map(|t| format!("{t:.0}")).collect::<Vec<_>>().join(" | ")
+    row.iter()
+        .map(|t| format!("{t:.0}"))
+        .collect::<Vec<_>>()
+        .join(" | ")
 }
 
 /// Medians of each stage and of the total.
@@ -68,7 +82,13 @@ fn stages(text: &str, runs: usize) -> [f64; 5] {
         let module = SceneModule::new(picture, Precision::Accurate).expect("a module");
         let whole = start.elapsed().as_secs_f64() * 1e6;
         drop(module);
-        samples.push([parse, compiled - parse, link, whole - link, compiled + whole]);
+        samples.push([
+            parse,
+            compiled - parse,
+            link,
+            whole - link,
+            compiled + whole,
+        ]);
     }
     // the first run parses templates and fills caches
     samples.remove(0);
@@ -87,7 +107,10 @@ fn median(mut values: Vec<f64>) -> f64 {
 /// Sums of n distinct terms, which no common subexpression shortens.
 fn growth_table() {
     println!("\nGrowth with the number of syntax nodes, microseconds a node\n");
-    println!("| nodes | {} | total | total / (n log2 n), ns |", STAGES.join(" | "));
+    println!(
+        "| nodes | {} | total | total / (n log2 n), ns |",
+        STAGES.join(" | ")
+    );
     println!("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     for terms in [2_u32, 20, 200, 2_000, 20_000] {
         let mut text = String::from("x");

@@ -32,7 +32,12 @@ impl Tape {
     pub fn new(graph: &Graph, roots: &[Id]) -> Self {
         let (graph, roots) = graph.compacted(roots);
         let values = vec![Number::Real(f64::NAN); graph.nodes().len()];
-        Self { nodes: graph.nodes().to_vec(), ids: graph.ids().collect(), roots, values }
+        Self {
+            nodes: graph.nodes().to_vec(),
+            ids: graph.ids().collect(),
+            roots,
+            values,
+        }
     }
 
     /// Computes every root, and hands them to `each` in order.
@@ -51,8 +56,18 @@ fn value(node: &Node, leaves: &Leaves, values: &[Number]) -> Number {
     match node.op {
         Op::Const(bits) => Number::Real(f64::from_bits(bits)),
         Op::Truth(value) => Number::Truth(value),
-        Op::Input(k) => leaves.inputs.get(usize::from(k)).copied().unwrap_or(missing),
-        Op::Param(k) => Number::Real(leaves.params.get(usize::from(k)).copied().unwrap_or(f64::NAN)),
+        Op::Input(k) => leaves
+            .inputs
+            .get(usize::from(k))
+            .copied()
+            .unwrap_or(missing),
+        Op::Param(k) => Number::Real(
+            leaves
+                .params
+                .get(usize::from(k))
+                .copied()
+                .unwrap_or(f64::NAN),
+        ),
         Op::Time => Number::Real(leaves.time),
         Op::Pixel => Number::Real(leaves.pixel),
         Op::Apply(prim) => apply(prim, node, values),
@@ -62,9 +77,11 @@ fn value(node: &Node, leaves: &Leaves, values: &[Number]) -> Number {
 fn apply(prim: Prim, node: &Node, values: &[Number]) -> Number {
     let operands: smallvec::SmallVec<[Number; 3]> =
         node.args.iter().map(|a| values[a.index()]).collect();
-    table::row(prim).evaluate(prim, &operands).unwrap_or(match node.ty {
-        Ty::Real => Number::Real(f64::NAN),
-        Ty::Complex => Number::Complex(complex(f64::NAN, f64::NAN)),
-        Ty::Bool => Number::Truth(false),
-    })
+    table::row(prim)
+        .evaluate(prim, &operands)
+        .unwrap_or(match node.ty {
+            Ty::Real => Number::Real(f64::NAN),
+            Ty::Complex => Number::Complex(complex(f64::NAN, f64::NAN)),
+            Ty::Bool => Number::Truth(false),
+        })
 }

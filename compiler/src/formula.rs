@@ -42,13 +42,19 @@ impl Formula {
     /// IR types of the scalar inputs.
     #[must_use]
     pub fn scalars(&self) -> Vec<Ty> {
-        self.inputs.iter().flat_map(|input| scalar_types(input.ty)).collect()
+        self.inputs
+            .iter()
+            .flat_map(|input| scalar_types(input.ty))
+            .collect()
     }
 
     /// Names of the real columns that hold the arguments in tables.
     #[must_use]
     pub fn columns(&self) -> Vec<String> {
-        self.inputs.iter().flat_map(|input| column_names(&input.name, input.ty)).collect()
+        self.inputs
+            .iter()
+            .flat_map(|input| column_names(&input.name, input.ty))
+            .collect()
     }
 }
 
@@ -69,9 +75,11 @@ pub fn column_names(name: &str, ty: Type) -> Vec<String> {
     match ty {
         Type::Real | Type::Bool => vec![name.to_owned()],
         Type::Complex => vec![format!("re({name})"), format!("im({name})")],
-        Type::Vector(n) => {
-            ["x", "y", "z", "w"].iter().take(usize::from(n)).map(|c| format!("{name}.{c}")).collect()
-        }
+        Type::Vector(n) => ["x", "y", "z", "w"]
+            .iter()
+            .take(usize::from(n))
+            .map(|c| format!("{name}.{c}"))
+            .collect(),
     }
 }
 

@@ -3,9 +3,14 @@
 use pullback_grammar::ast::{Expr, ExprId, File, Function, Item, Param, Show};
 use pullback_grammar::{Diagnostic, Span};
 
-use crate::check::{Builder, Symbols, Value, check_names, free_variables, is_builtin_function, nearest};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::check::{
+    Builder, Symbols, Value, check_names, free_variables, is_builtin_function, nearest,
+    not_constant, quoted, shortened, signature,
+};
 use crate::formula::{Formula, Input, argument_value, scalar_types};
-use crate::ir::Graph;
+use crate::ir::{Graph, Id};
 use crate::scene::{Scene, SettingKind, SettingSpec, Space, default_scene, scene, scenes};
 use crate::types::Type;
 
@@ -46,7 +51,10 @@ impl Picture {
     /// The value of a setting.
     #[must_use]
     pub fn setting(&self, name: &str) -> Option<[f64; 3]> {
-        self.settings.iter().find(|s| s.spec.name == name).map(|s| s.value)
+        self.settings
+            .iter()
+            .find(|s| s.spec.name == name)
+            .map(|s| s.value)
     }
 }
 
@@ -99,18 +107,50 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
     let file = &parsed.file;
     let symbols = Symbols::collect(file, &mut diagnostics);
     check_names(file, &symbols, &mut diagnostics);
-    let mut checker = Checker { file, symbols: &symbols, diagnostics };
+    let mut checker = Checker {
+        file,
+        symbols: &symbols,
+        diagnostics,
+        called: FxHashSet::default(),
+    };
     let params = checker.params();
     let pictures = checker.pictures();
+    checker.unused_functions();
     let mut diagnostics = checker.diagnostics;
+    let failed = diagnostics.iter().any(Diagnostic::is_error);
+    if !failed && pictures.is_empty() {
+        diagnostics.push(
+            Diagnostic::error(
+                "internal-silent",
+                Span::default(),
+                "the program cannot be shown",
+            )
+            .with_hint("this is a mistake in pullback; please report the program"),
+        );
+    }
     diagnostics.sort_by(|a, b| {
         (a.span, a.severity, a.code, &a.message).cmp(&(b.span, b.severity, b.code, &b.message))
     });
     diagnostics.dedup_by(|a, b| a.span == b.span && a.code == b.code && a.message == b.message);
-    let failed = diagnostics.iter().any(Diagnostic::is_error);
+    pullback_grammar::diagnostic::limit(&mut diagnostics);
     let program = (!failed && !pictures.is_empty()).then_some(Program { params, pictures });
-    Compilation { program, diagnostics }
+    Compilation {
+        program,
+        diagnostics,
+    }
 }
+
+/// Types that are tried for the parameters of a function that nothing calls.
+const GENERIC: [Type; 5] = [
+    Type::Real,
+    Type::Complex,
+    Type::Vector(2),
+    Type::Vector(3),
+    Type::Vector(4),
+];
+
+/// Greatest number of times that such functions are built, all together.
+const MAX_ATTEMPTS: usize = 2000;
 
 /// What a picture shows: a function, or a formula in free variables.
 #[derive(Clone, Copy)]
@@ -123,9 +163,28 @@ struct Checker<'a> {
     file: &'a File,
     symbols: &'a Symbols<'a>,
     diagnostics: Vec<Diagnostic>,
+    /// Functions that something shown, or a constant, has called: they are checked.
+    called: FxHashSet<&'a str>,
 }
 
 impl<'a> Checker<'a> {
+    fn builder(&self) -> Builder<'a> {
+        Builder::new(self.file, self.symbols)
+    }
+
+    /// Takes over what a builder found.
+    fn finish(&mut self, builder: &mut Builder<'a>) {
+        self.diagnostics.append(&mut builder.diagnostics);
+        self.called.extend(builder.called());
+    }
+
+    /// Whether an error lies in this part of the text: what follows from it is not reported.
+    fn has_error_in(&self, span: Span) -> bool {
+        self.diagnostics
+            .iter()
+            .any(|d| d.is_error() && span.start <= d.span.start && d.span.end <= span.end)
+    }
+
     fn params(&mut self) -> Vec<ParamInfo> {
         let file = self.file;
         let params = file.items.iter().filter_map(|item| match item {
@@ -136,7 +195,9 @@ impl<'a> Checker<'a> {
     }
 
     fn param(&mut self, param: &'a Param) -> ParamInfo {
-        let default = self.constant(param.default, "the default of a parameter").unwrap_or(0.0);
+        let default = self
+            .constant(param.default, "the default of a parameter")
+            .unwrap_or(0.0);
         let reach = default.abs().max(1.0);
         let (mut lo, mut hi) = (default - reach, default + reach);
         if let Some((from, to)) = param.range {
@@ -146,45 +207,94 @@ impl<'a> Checker<'a> {
             if lo >= hi {
                 self.diagnostics.push(
                     Diagnostic::error("bad-range", span, format!("the range {lo}..{hi} is empty"))
-                        .with_hint("write the lesser end first"),
+                        .with_label("the first end must be the lesser one")
+                        .with_hint(if lo > hi {
+                            format!("write {hi}..{lo}")
+                        } else {
+                            "write two different ends".to_owned()
+                        }),
                 );
             } else if !(lo..=hi).contains(&default) {
                 self.diagnostics.push(
                     Diagnostic::error(
                         "default-outside-range",
                         self.file.exprs.span(param.default),
-                        format!("{default} is not in {lo}..{hi}"),
+                        format!("the default {default} is not in {lo}..{hi}"),
                     )
-                    .with_related(span, "the range"),
+                    .with_related(span, "the range")
+                    .with_hint(format!(
+                        "write {}..{} to include it",
+                        lo.min(default),
+                        hi.max(default)
+                    )),
                 );
             }
         }
-        ParamInfo { name: param.name.text.clone(), default, lo, hi }
+        ParamInfo {
+            name: param.name.text.clone(),
+            default,
+            lo,
+            hi,
+        }
     }
 
     /// The value of a real constant expression; reports one that is not.
     fn constant(&mut self, expr: ExprId, what: &str) -> Option<f64> {
-        let mut builder = Builder::new(self.file, self.symbols);
-        let value = builder.expr(expr);
-        self.diagnostics.append(&mut builder.diagnostics);
-        let number = match &value {
-            Value::Scalar(id) => builder.graph.as_real(*id),
-            Value::Error => return None,
-            Value::Vector(_) => None,
-        };
-        if number.is_none_or(|x| !x.is_finite()) {
-            self.not_constant(expr, what);
-            return None;
+        let span = self.file.exprs.span(expr);
+        let (value, graph) = self.constant_value(expr)?;
+        match value.ty(&graph)? {
+            Type::Real => self.finite(&value, &graph, expr, what),
+            ty => {
+                let problem = Diagnostic::error(
+                    "type-mismatch",
+                    span,
+                    format!("{what} must be real, this is {ty}"),
+                );
+                self.diagnostics.push(if ty == Type::Complex {
+                    problem.with_hint("use one parameter for each part, as in `a + b i`")
+                } else {
+                    problem.with_hint("use one parameter for each number")
+                });
+                None
+            }
         }
-        number
     }
 
-    fn not_constant(&mut self, expr: ExprId, what: &str) {
+    /// Builds an expression that must be constant. Warnings are left out where the value is refused anyway.
+    fn constant_value(&mut self, expr: ExprId) -> Option<(Value, Graph)> {
+        let mut builder = self.builder();
+        let value = builder.expr(expr);
+        let is_number = |id: &Id| builder.graph.as_real(*id).is_none_or(f64::is_finite);
+        if !value.ids().iter().all(is_number) {
+            builder.diagnostics.retain(Diagnostic::is_error);
+        }
+        self.finish(&mut builder);
+        (value != Value::Error).then_some((value, builder.graph))
+    }
+
+    fn finite(&mut self, value: &Value, graph: &Graph, expr: ExprId, what: &str) -> Option<f64> {
         let span = self.file.exprs.span(expr);
-        self.diagnostics.push(
-            Diagnostic::error("not-constant", span, format!("{what} must be a finite real constant"))
-                .with_hint("it may use numbers and constants, but no parameters and no inputs"),
-        );
+        let number = value.ids().first().and_then(|&id| graph.as_real(id));
+        match number {
+            Some(x) if x.is_finite() => Some(x),
+            Some(x) => {
+                self.diagnostics.push(
+                    Diagnostic::error(
+                        "not-finite",
+                        span,
+                        format!("{what} is {}", infinity_or_nan(x)),
+                    )
+                    .with_hint("write a finite number"),
+                );
+                None
+            }
+            None => {
+                if !self.has_error_in(span) {
+                    self.diagnostics.push(not_constant(span, what));
+                }
+                None
+            }
+        }
     }
 
     fn pictures(&mut self) -> Vec<Picture> {
@@ -201,7 +311,10 @@ impl<'a> Checker<'a> {
         if shows.is_empty() {
             return self.default_picture().into_iter().collect();
         }
-        shows.into_iter().filter_map(|show| self.picture(show)).collect()
+        shows
+            .into_iter()
+            .filter_map(|show| self.picture(show))
+            .collect()
     }
 
     /// At most one bare formula can be meant.
@@ -238,8 +351,12 @@ impl<'a> Checker<'a> {
         let Some(subject) = formula.or(named.or(last).map(Subject::Function)) else {
             if !self.diagnostics.iter().any(Diagnostic::is_error) {
                 self.diagnostics.push(
-                    Diagnostic::error("nothing-to-show", Span::default(), "there is no formula to show")
-                        .with_hint("write one, such as sin(x^2 + y^2)"),
+                    Diagnostic::error(
+                        "nothing-to-show",
+                        Span::default(),
+                        "there is no formula to show",
+                    )
+                    .with_hint("write one, such as sin(x^2 + y^2)"),
                 );
             }
             return None;
@@ -252,8 +369,12 @@ impl<'a> Checker<'a> {
             space = Space::Complex;
         }
         let scene = default_scene(space);
-        let formula = self.check_result(scene, &formula, span)?;
-        Some(Picture { scene, settings: default_settings(scene), formula })
+        let formula = self.check_result(scene, &formula, subject, span)?;
+        Some(Picture {
+            scene,
+            settings: default_settings(scene),
+            formula,
+        })
     }
 
     fn subject_span(&self, subject: Subject) -> Span {
@@ -261,6 +382,94 @@ impl<'a> Checker<'a> {
             Subject::Function(function) => function.name.span,
             Subject::Formula(body) => self.file.exprs.span(body),
         }
+    }
+
+    /// Checks functions that nothing calls. Where parameters have no fixed type, types are looked for with which
+    /// the function makes sense; if there are none, what is wrong with it for reals is reported.
+    fn unused_functions(&mut self) {
+        let mut attempts = MAX_ATTEMPTS;
+        let functions = self.file.items.iter().filter_map(|item| match item {
+            Item::Function(function) => Some(function),
+            _ => None,
+        });
+        for function in functions {
+            let is_current = self
+                .symbols
+                .functions
+                .get(function.name.text.as_str())
+                .is_some_and(|f| std::ptr::eq(*f, function));
+            if is_current
+                && !self.called.contains(function.name.text.as_str())
+                && !self.has_error_in(function.span)
+            {
+                self.unused_function(function, &mut attempts);
+            }
+        }
+    }
+
+    fn unused_function(&mut self, function: &'a Function, attempts: &mut usize) {
+        let declared = declared(function);
+        let is_plain_z = matches!(declared.as_slice(), [("z", None)]);
+        let fixed: Vec<Option<Type>> = declared
+            .iter()
+            .map(|d| d.1.or(is_plain_z.then_some(Type::Complex)))
+            .collect();
+        let open = fixed.iter().filter(|t| t.is_none()).count();
+        if open > 2 {
+            return;
+        }
+        let mut of_reals = None;
+        for first in GENERIC {
+            for second in GENERIC {
+                if *attempts == 0 {
+                    return;
+                }
+                *attempts -= 1;
+                let mut choices = [first, second].into_iter();
+                let types: Vec<Type> = fixed
+                    .iter()
+                    .map(|t| t.or_else(|| choices.next()).unwrap_or(first))
+                    .collect();
+                let mut builder = self.attempt(function, &types);
+                if builder.graph.budget().is_err() {
+                    return;
+                }
+                if !builder.diagnostics.iter().any(Diagnostic::is_error) {
+                    if open > 0 {
+                        // a warning may be due to the types that were tried
+                        builder.diagnostics.clear();
+                    }
+                    self.finish(&mut builder);
+                    return;
+                }
+                let found = std::mem::take(&mut builder.diagnostics);
+                self.called.extend(builder.called());
+                of_reals.get_or_insert(found);
+                if open < 2 {
+                    break;
+                }
+            }
+            if open == 0 {
+                break;
+            }
+        }
+        let found = of_reals.unwrap_or_default();
+        let too_deep = |d: &Diagnostic| d.code == "too-deep";
+        if !(found.iter().any(too_deep) && self.diagnostics.iter().any(too_deep)) {
+            self.diagnostics.extend(found);
+        }
+    }
+
+    fn attempt(&self, function: &'a Function, types: &[Type]) -> Builder<'a> {
+        let mut builder = self.builder();
+        let mut values = Vec::new();
+        let mut first = 0;
+        for &ty in types {
+            values.push(argument_value(&mut builder.graph, first, ty));
+            first += scalar_types(ty).len();
+        }
+        builder.call_function(function, values, &[], function.name.span);
+        builder
     }
 
     /// The space that a function or formula lives in by its inputs.
@@ -288,9 +497,12 @@ impl<'a> Checker<'a> {
             [(name, None)] => Diagnostic::error(
                 "ambiguous-input",
                 function.params[0].name.span,
-                format!("what `{name}` is cannot be told"),
+                format!("what {} is cannot be told", quoted(name)),
             )
-            .with_hint(format!("write `{name}: complex`, `{name}: vec2` or `{name}: vec3`")),
+            .with_hint(format!(
+                "write `{0}: complex`, `{0}: vec2` or `{0}: vec3`",
+                shortened(name)
+            )),
             _ => Diagnostic::error(
                 "no-scene",
                 function.name.span,
@@ -303,26 +515,40 @@ impl<'a> Checker<'a> {
     }
 
     fn picture(&mut self, show: &'a Show) -> Option<Picture> {
+        if show.scene.text.is_empty() {
+            // the parser has reported that it is missing
+            return None;
+        }
         let Some(scene) = scene(&show.scene.text) else {
             let names = scenes().iter().map(|s| s.name);
             let list: Vec<&str> = names.clone().collect();
             let problem = Diagnostic::error(
                 "unknown-scene",
                 show.scene.span,
-                format!("unknown scene `{}`", show.scene.text),
+                format!("unknown scene {}", quoted(&show.scene.text)),
             );
-            self.diagnostics.push(match nearest(&show.scene.text, names) {
-                Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
-                None => problem.with_hint(format!("scenes are {}", list.join(", "))),
-            });
+            self.diagnostics
+                .push(match nearest(&show.scene.text, names) {
+                    Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
+                    None => problem.with_hint(format!("scenes are {}", list.join(", "))),
+                });
             return None;
         };
         let &[arg] = show.args.as_slice() else {
+            self.settings_of(scene, show);
+            if show.args.is_empty() {
+                // reported by the parser
+                return None;
+            }
             self.diagnostics.push(
                 Diagnostic::error(
                     "wrong-arity",
                     show.span,
-                    format!("`{}` shows one function, not {}", scene.name, show.args.len()),
+                    format!(
+                        "`{}` shows one function, not {}",
+                        scene.name,
+                        show.args.len()
+                    ),
                 )
                 .with_hint(format!("write show {}(f)", scene.name)),
             );
@@ -337,11 +563,22 @@ impl<'a> Checker<'a> {
         };
         let span = self.file.exprs.span(arg);
         let formula = self.formula(subject, scene.space, span);
-        let settings = self.finish_settings(scene, show);
-        self.check_result(scene, &formula?, span).map(|formula| Picture { scene, settings, formula })
+        let settings = self.settings_of(scene, show);
+        self.check_result(scene, &formula?, subject, span)
+            .map(|formula| Picture {
+                scene,
+                settings,
+                formula,
+            })
     }
 
-    fn check_result(&mut self, scene: &Scene, formula: &Formula, span: Span) -> Option<Formula> {
+    fn check_result(
+        &mut self,
+        scene: &Scene,
+        formula: &Formula,
+        subject: Subject,
+        span: Span,
+    ) -> Option<Formula> {
         let fits = match scene.space {
             Space::Plane | Space::Space => formula.ty == Type::Real,
             Space::Complex => matches!(formula.ty, Type::Real | Type::Complex),
@@ -349,15 +586,29 @@ impl<'a> Checker<'a> {
         if fits {
             return Some(formula.clone());
         }
-        let wanted = if scene.space == Space::Complex { "a complex number" } else { "a real number" };
+        let whole = match subject {
+            Subject::Function(function) => function.span,
+            Subject::Formula(body) => self.file.exprs.span(body),
+        };
+        if self.has_error_in(whole) {
+            return None;
+        }
+        let wanted = if scene.space == Space::Complex {
+            "a complex number"
+        } else {
+            "a real number"
+        };
         let problem = Diagnostic::error(
             "wrong-result-type",
             span,
-            format!("`{}` shows {wanted}, but this is {}", scene.name, formula.ty),
+            format!(
+                "`{}` shows {wanted}, but this is {}",
+                scene.name, formula.ty
+            ),
         );
         self.diagnostics.push(match formula.ty {
             Type::Complex => problem.with_hint("show abs(f), re(f) or im(f), or use `domain`"),
-            Type::Vector(_) => problem.with_hint("show |v| or a component such as v.x"),
+            Type::Vector(_) => problem.with_hint("show its length |v|, or a component such as v.x"),
             _ => problem.with_hint("write if … then 1 else 0"),
         });
         None
@@ -373,7 +624,7 @@ impl<'a> Checker<'a> {
             self.wrong_inputs(subject, space, span);
             return None;
         };
-        let mut builder = Builder::new(self.file, self.symbols);
+        let mut builder = self.builder();
         let mut values = Vec::new();
         let mut first = 0;
         for &ty in &types {
@@ -389,13 +640,19 @@ impl<'a> Checker<'a> {
                 builder.expr(body)
             }
         };
-        self.diagnostics.append(&mut builder.diagnostics);
+        self.finish(&mut builder);
+        if let Subject::Function(function) = subject {
+            self.called.insert(&function.name.text);
+        }
         if builder.graph.budget().is_err() {
             self.diagnostics.push(
                 Diagnostic::error(
                     "too-large",
                     span,
-                    format!("the formula needs more than {} operations", Graph::MAX_NODES),
+                    format!(
+                        "the formula needs more than {} operations",
+                        Graph::MAX_NODES
+                    ),
                 )
                 .with_hint("functions that call others many times multiply; name what repeats"),
             );
@@ -405,13 +662,23 @@ impl<'a> Checker<'a> {
         let inputs = declared
             .iter()
             .zip(types)
-            .map(|((name, _), ty)| Input { name: (*name).to_owned(), ty })
+            .map(|((name, _), ty)| Input {
+                name: (*name).to_owned(),
+                ty,
+            })
             .collect();
         let name = match subject {
             Subject::Function(function) => function.name.text.clone(),
             Subject::Formula(_) => "f".to_owned(),
         };
-        Some(Formula { name, inputs, value: value.ids(), graph: builder.graph, ty, span })
+        Some(Formula {
+            name,
+            inputs,
+            value: value.ids(),
+            graph: builder.graph,
+            ty,
+            span,
+        })
     }
 
     /// Inputs of a bare formula: those of the space, or the vector p where it uses that.
@@ -438,7 +705,10 @@ impl<'a> Checker<'a> {
                 Diagnostic::error(
                     "unknown-name",
                     self.file.exprs.span(body),
-                    format!("`{stray}` is not an input here, those are {}", names.join(", ")),
+                    format!(
+                        "`{stray}` is not an input here, those are {}",
+                        names.join(", ")
+                    ),
                 )
                 .with_hint("name the inputs: f(x, y) = …, f(z) = … or f(x, y, z) = …"),
             );
@@ -451,52 +721,85 @@ impl<'a> Checker<'a> {
     }
 
     fn wrong_inputs(&mut self, subject: Subject, space: Space, span: Span) {
-        let wanted = match space {
-            Space::Plane => "f(x, y)",
-            Space::Complex => "f(z) of one complex number",
-            Space::Space => "f(x, y, z)",
+        let (wanted, inputs) = match space {
+            Space::Plane => ("(x, y)", "x, y"),
+            Space::Complex => ("one complex number", "z"),
+            Space::Space => ("(x, y, z)", "x, y, z"),
         };
-        let problem = Diagnostic::error(
-            "wrong-inputs",
-            span,
-            format!("this scene shows a function {wanted}"),
+        let name = match subject {
+            Subject::Function(function) => shortened(&function.name.text),
+            Subject::Formula(_) => "f".to_owned(),
+        };
+        let header = format!("{name}({inputs}) = …");
+        let message = format!(
+            "`{}` shows a function of {wanted}",
+            default_scene(space).name
         );
-        self.diagnostics.push(match subject {
-            Subject::Function(function) => problem.with_related(
-                function.name.span,
-                format!("this one takes {} argument(s)", function.params.len()),
-            ),
-            Subject::Formula(_) => problem,
-        });
+        let problem = Diagnostic::error("wrong-inputs", span, message);
+        let Subject::Function(function) = subject else {
+            self.diagnostics
+                .push(problem.with_hint(format!("name the inputs: `{header}`")));
+            return;
+        };
+        let declared = declared(function);
+        let fitting = [Space::Plane, Space::Complex, Space::Space]
+            .into_iter()
+            .find(|&s| s != space && input_types(s, &declared).is_some());
+        let hint = match fitting {
+            Some(other) => {
+                let name = default_scene(other).name;
+                format!(
+                    "write `show {name}({})`, or take the inputs: `{header}`",
+                    shortened(&function.name.text)
+                )
+            }
+            None => format!("write `{header}`"),
+        };
+        self.diagnostics.push(
+            problem
+                .with_label(format!("this is {}", signature(function)))
+                .with_related(function.name.span, "defined here")
+                .with_hint(hint),
+        );
     }
 
-    fn finish_settings(&mut self, scene: &'static Scene, show: &'a Show) -> Vec<SettingValue> {
+    fn settings_of(&mut self, scene: &'static Scene, show: &'a Show) -> Vec<SettingValue> {
         let mut settings = default_settings(scene);
-        let mut seen: Vec<&str> = Vec::new();
+        let mut seen: FxHashMap<&str, Span> = FxHashMap::default();
         for setting in &show.settings {
             let name = setting.name.text.as_str();
-            if seen.contains(&name) {
-                self.diagnostics.push(Diagnostic::error(
-                    "duplicate-setting",
-                    setting.name.span,
-                    format!("`{name}` is set twice"),
-                ));
+            if let Some(&first) = seen.get(name) {
+                self.diagnostics.push(
+                    Diagnostic::error(
+                        "duplicate-setting",
+                        setting.name.span,
+                        format!("{} is set twice", quoted(name)),
+                    )
+                    .with_related(first, "first set here")
+                    .with_hint("remove one of them"),
+                );
                 continue;
             }
-            seen.push(name);
+            seen.insert(name, setting.name.span);
             let Some(spec) = scene.setting(name) else {
                 self.unknown_setting(scene, &setting.name);
                 continue;
             };
             if let Some(upper) = setting.upper {
-                let span = self.file.exprs.span(setting.value).join(self.file.exprs.span(upper));
+                let span = self
+                    .file
+                    .exprs
+                    .span(setting.value)
+                    .join(self.file.exprs.span(upper));
                 self.diagnostics.push(
                     Diagnostic::error("type-mismatch", span, format!("`{name}` is not a range"))
                         .with_hint("write one value"),
                 );
                 continue;
             }
-            let Some(value) = self.setting_value(spec, setting.value) else { continue };
+            let Some(value) = self.setting_value(spec, setting.value) else {
+                continue;
+            };
             if let Some(slot) = settings.iter_mut().find(|s| s.spec.name == name) {
                 slot.value = value;
             }
@@ -508,13 +811,14 @@ impl<'a> Checker<'a> {
         let problem = Diagnostic::error(
             "unknown-setting",
             name.span,
-            format!("`{}` has no setting `{}`", scene.name, name.text),
+            format!("`{}` has no setting {}", scene.name, quoted(&name.text)),
         );
         let names: Vec<&str> = scene.settings.iter().map(|s| s.name).collect();
-        self.diagnostics.push(match nearest(&name.text, names.iter().copied()) {
-            Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
-            None => problem.with_hint(format!("it has {}", names.join(", "))),
-        });
+        self.diagnostics
+            .push(match nearest(&name.text, names.iter().copied()) {
+                Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
+                None => problem.with_hint(format!("it has {}", names.join(", "))),
+            });
     }
 
     fn setting_value(&mut self, spec: &SettingSpec, expr: ExprId) -> Option<[f64; 3]> {
@@ -529,55 +833,79 @@ impl<'a> Checker<'a> {
                     Diagnostic::error(
                         "type-mismatch",
                         span,
-                        format!("`{}` is one of {}", spec.name, words.join(", ")),
-                    ),
+                        format!("`{}` is a choice of words", spec.name),
+                    )
+                    .with_hint(format!("write {}", words.join(", or "))),
                 );
                 return None;
             };
             #[allow(clippy::cast_precision_loss, reason = "a place in a short list")]
             return Some([place as f64; 3]);
         }
-        let mut builder = Builder::new(self.file, self.symbols);
-        let value = builder.expr(expr);
-        self.diagnostics.append(&mut builder.diagnostics);
-        let size = match spec.kind {
-            SettingKind::Vec2 => 2,
-            SettingKind::Vec3 => 3,
-            _ => 1,
+        let (value, graph) = self.constant_value(expr)?;
+        let (size, wanted, example) = match spec.kind {
+            SettingKind::Vec2 => (2, "vec2", "(1, 2)"),
+            SettingKind::Vec3 => (3, "vec3", "(1, 2, 3)"),
+            _ => (1, "real", "1"),
         };
-        let components: Option<Vec<f64>> =
-            value.ids().iter().map(|&id| builder.graph.as_real(id)).collect();
-        let numbers = match (value, components) {
-            (Value::Error, _) => return None,
-            (_, Some(numbers)) if numbers.iter().all(|x| x.is_finite()) => numbers,
-            _ => {
-                self.not_constant(expr, "a setting");
-                return None;
-            }
+        let found = value.ty(&graph)?;
+        let fits = match found {
+            Type::Real => size != 2,
+            Type::Vector(n) => usize::from(n) == size,
+            _ => false,
         };
-        let out = match *numbers.as_slice() {
-            [x] if size != 2 => [x; 3],
-            [x, y] if size == 2 => [x, y, 0.0],
-            [x, y, z] if size == 3 => [x, y, z],
-            _ => {
-                self.diagnostics.push(Diagnostic::error(
+        if !fits {
+            self.diagnostics.push(
+                Diagnostic::error(
                     "type-mismatch",
                     span,
-                    format!("`{}` takes {size} number(s), found {}", spec.name, numbers.len()),
-                ));
-                return None;
+                    format!("`{}` is {wanted}, found {found}", spec.name),
+                )
+                .with_label(format!("this is {found}"))
+                .with_hint(format!(
+                    "write a {wanted}, such as `{} = {example}`",
+                    spec.name
+                )),
+            );
+            return None;
+        }
+        let numbers: Option<Vec<f64>> = value.ids().iter().map(|&id| graph.as_real(id)).collect();
+        let Some(numbers) = numbers else {
+            if !self.has_error_in(span) {
+                self.diagnostics.push(not_constant(span, "a setting"));
             }
+            return None;
+        };
+        if let Some(&x) = numbers.iter().find(|x| !x.is_finite()) {
+            let message = format!("`{}` is {}", spec.name, infinity_or_nan(x));
+            self.diagnostics.push(
+                Diagnostic::error("not-finite", span, message).with_hint("write a finite number"),
+            );
+            return None;
+        }
+        let out = match *numbers.as_slice() {
+            [x] => [x; 3],
+            [x, y] => [x, y, 0.0],
+            [x, y, z] => [x, y, z],
+            _ => return None,
         };
         match spec.check(&out[..size]) {
             Ok(()) => Some(out),
             Err(message) => {
                 self.diagnostics.push(
-                    Diagnostic::error("setting-out-of-range", span, message)
-                        .with_hint(spec.doc),
+                    Diagnostic::error("setting-out-of-range", span, message).with_hint(spec.doc),
                 );
                 None
             }
         }
+    }
+}
+
+fn infinity_or_nan(x: f64) -> &'static str {
+    if x.is_nan() {
+        "not a number"
+    } else {
+        "infinite"
     }
 }
 
@@ -586,7 +914,12 @@ fn declared(function: &Function) -> Vec<(&str, Option<Type>)> {
     function
         .params
         .iter()
-        .map(|p| (p.name.text.as_str(), p.ty.as_ref().and_then(|t| Type::from_name(&t.text))))
+        .map(|p| {
+            (
+                p.name.text.as_str(),
+                p.ty.as_ref().and_then(|t| Type::from_name(&t.text)),
+            )
+        })
         .collect()
 }
 
@@ -611,5 +944,12 @@ fn input_types(space: Space, declared: &[(&str, Option<Type>)]) -> Option<Vec<Ty
 }
 
 fn default_settings(scene: &'static Scene) -> Vec<SettingValue> {
-    scene.settings.iter().map(|spec| SettingValue { spec, value: spec.default }).collect()
+    scene
+        .settings
+        .iter()
+        .map(|spec| SettingValue {
+            spec,
+            value: spec.default,
+        })
+        .collect()
 }

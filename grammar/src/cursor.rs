@@ -24,6 +24,9 @@ pub(crate) struct Parser<'a> {
     /// Parentheses and braces open, so that a wrong closing one is left to whom it belongs.
     pub(crate) open_parens: usize,
     pub(crate) open_braces: usize,
+    /// Whether a bracket of the statement is wrong, or it has a `?`: closing brackets, commas and colons that fit
+    /// nowhere are then consequences.
+    pub(crate) is_broken: bool,
     tokens: &'a [Token],
     at: usize,
     start: usize,
@@ -62,6 +65,7 @@ impl<'a> Parser<'a> {
             takes_functions: false,
             open_parens: 0,
             open_braces: 0,
+            is_broken: false,
             tokens,
             at: 0,
             start: 0,
@@ -83,6 +87,7 @@ impl<'a> Parser<'a> {
         self.bars = 0;
         self.open_parens = 0;
         self.open_braces = 0;
+        self.is_broken = false;
         self.takes_functions = false;
         self.in_condition = false;
         self.complained_at = None;
@@ -201,7 +206,9 @@ impl<'a> Parser<'a> {
 
     /// Goes past tokens that have been complained about by the lexer; what follows from them is not reported.
     pub(crate) fn skip_strays(&mut self) {
-        while self.eat(TokenKind::Error) {
+        while self.at(TokenKind::Error) {
+            let place = self.bump();
+            self.is_broken |= place.text(self.text) == "?";
             self.complained_at = Some(self.at);
         }
     }
@@ -365,8 +372,13 @@ impl<'a> Parser<'a> {
     /// Whether the token here closes, but not this bracket.
     fn is_foreign_closing(&self, opened: &Opened) -> bool {
         let kind = self.kind();
-        kind == TokenKind::End
-            || matches!(kind, TokenKind::RParen | TokenKind::RBrace) && kind != opened.closing()
+        match kind {
+            TokenKind::End => true,
+            TokenKind::RParen | TokenKind::RBrace => kind != opened.closing(),
+            // the `:` of a case: its condition has ended
+            TokenKind::Colon => opened.kind == TokenKind::LParen && self.open_braces > 0,
+            _ => false,
+        }
     }
 }
 

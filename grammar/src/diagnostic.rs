@@ -81,3 +81,38 @@ impl Diagnostic {
         self.severity == Severity::Error
     }
 }
+
+/// Most errors, and most warnings, that are reported for one file.
+pub const MAX_DIAGNOSTICS: usize = 200;
+
+/// Code of the last diagnostic where there are too many.
+const TOO_MANY: &str = "too-many-problems";
+
+/// Keeps the first errors and the first warnings, and says at the end where there are more.
+pub fn limit(diagnostics: &mut Vec<Diagnostic>) {
+    for (severity, noun) in [(Severity::Error, "errors"), (Severity::Warning, "warnings")] {
+        let of_kind = |d: &Diagnostic| d.severity == severity && d.code != TOO_MANY;
+        if diagnostics.iter().filter(|d| of_kind(d)).count() <= MAX_DIAGNOSTICS {
+            continue;
+        }
+        let mut kept = 0;
+        let mut last = Span::default();
+        diagnostics.retain(|diagnostic| {
+            if diagnostic.severity != severity {
+                return true;
+            }
+            if !of_kind(diagnostic) || kept == MAX_DIAGNOSTICS {
+                return false;
+            }
+            kept += 1;
+            last = diagnostic.span;
+            true
+        });
+        let message = format!("there are more than {MAX_DIAGNOSTICS} {noun}");
+        let mut summary = Diagnostic::error(TOO_MANY, last, message)
+            .with_label("the last one that is listed")
+            .with_hint("mend the first ones, and look again");
+        summary.severity = severity;
+        diagnostics.push(summary);
+    }
+}

@@ -2,13 +2,11 @@
 
 use crate::ast::{File, MAX_SOURCE_BYTES};
 use crate::cursor::Parser;
+use crate::diagnostic::limit;
 use crate::layout::layout;
 use crate::scope::Scope;
 use crate::token::tokenize;
-use crate::{Diagnostic, Severity, Span};
-
-/// Most errors, and most warnings, that are reported for one file.
-const MAX_DIAGNOSTICS: usize = 200;
+use crate::{Diagnostic, Span};
 
 /// A syntax tree and every problem of its text.
 #[derive(Clone, Debug, Default)]
@@ -55,8 +53,7 @@ pub fn parse(text: &str, is_function: &dyn Fn(&str) -> bool) -> Parsed {
     let items = parser.file();
     diagnostics.append(&mut parser.diagnostics);
     diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
-    limit(&mut diagnostics, Severity::Error);
-    limit(&mut diagnostics, Severity::Warning);
+    limit(&mut diagnostics);
     Parsed {
         file: File {
             items,
@@ -112,38 +109,4 @@ fn only(diagnostic: Diagnostic) -> Parsed {
         diagnostics: vec![diagnostic],
         ..Parsed::default()
     }
-}
-
-/// Keeps the first of the problems of one severity, and says that there are more.
-fn limit(diagnostics: &mut Vec<Diagnostic>, severity: Severity) {
-    let count = diagnostics
-        .iter()
-        .filter(|d| d.severity == severity)
-        .count();
-    if count <= MAX_DIAGNOSTICS {
-        return;
-    }
-    let mut kept = 0;
-    let mut last = Span::default();
-    diagnostics.retain(|diagnostic| {
-        if diagnostic.severity != severity {
-            return true;
-        }
-        kept += 1;
-        if kept <= MAX_DIAGNOSTICS {
-            last = diagnostic.span;
-        }
-        kept <= MAX_DIAGNOSTICS
-    });
-    let noun = match severity {
-        Severity::Error => "errors",
-        Severity::Warning => "warnings",
-    };
-    let mut summary = Diagnostic::error(
-        "too-many-problems",
-        last,
-        format!("{count} {noun}, of which the first {MAX_DIAGNOSTICS} are listed"),
-    );
-    summary.severity = severity;
-    diagnostics.push(summary.with_hint("mend these first"));
 }

@@ -170,10 +170,7 @@ fn many_problems_are_counted() {
     assert_eq!(parsed.diagnostics.len(), 201);
     let last = parsed.diagnostics.last().expect("a summary");
     assert_eq!(last.code, "too-many-problems");
-    assert_eq!(
-        last.message,
-        "100000 errors, of which the first 200 are listed"
-    );
+    assert_eq!(last.message, "there are more than 200 errors");
 }
 
 #[test]

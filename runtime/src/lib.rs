@@ -12,6 +12,7 @@ pub mod render;
 pub mod rows;
 
 mod buffers;
+mod scale;
 mod tiles;
 mod uniforms;
 
@@ -20,3 +21,4 @@ pub use error::Error;
 pub use evaluate::GpuEvaluator;
 pub use image_file::{AtomicFile, Metadata};
 pub use render::{Frame, Pipeline, Renderer, RowSink, Size, View};
+pub use scale::fill_in_scale;

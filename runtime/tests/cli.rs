@@ -247,3 +247,37 @@ fn a_closed_pipe_is_no_error() {
     assert_eq!(output.status.code(), Some(0));
     assert!(output.stderr.is_empty());
 }
+
+/// The reference pages hold what the commands print. `BLESS=1` rewrites them.
+#[test]
+fn reference_pages_are_current() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+    for (page, command, title, introduction) in [
+        (
+            "functions.md",
+            "functions",
+            "# Functions and operators",
+            "Written by `pullback functions --markdown` from the operator table. Where a function takes reals it also \
+             takes\nvectors, by components.",
+        ),
+        (
+            "scenes.md",
+            "scenes",
+            "# Scenes and their settings",
+            "Written by `pullback scenes --markdown`. Settings stand in the braces of a `show`, or after `--set`.",
+        ),
+    ] {
+        let (code, table, _) = pullback(&[command, "--markdown"], "");
+        assert_eq!(code, 0);
+        let wanted = format!("{title}\n\n{introduction}\n\n{table}");
+        let path = docs.join(page);
+        if std::env::var_os("BLESS").is_some() {
+            std::fs::write(&path, &wanted).unwrap();
+        }
+        let found = std::fs::read_to_string(&path).unwrap_or_default();
+        assert_eq!(
+            found, wanted,
+            "{page} is out of date: run this test with BLESS=1"
+        );
+    }
+}

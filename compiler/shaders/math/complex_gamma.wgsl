@@ -15,7 +15,8 @@ fn complex_sin_pi(z: vec2f) -> vec2f {
     let h = scaled_sinhcosh(p.x);
     let cosh = h.cosh + low * h.sinh;
     let sinh = h.sinh + low * h.cosh;
-    return vec2f(times_wide_power_of_two(wave.x * cosh, h.exponent), times_wide_power_of_two(wave.y * sinh, h.exponent));
+    return vec2f(times_wide_power_of_two(wave.x * cosh, h.exponent), times_wide_power_of_two(wave.y * sinh,
+        h.exponent));
 }
 
 /// π cot πz.
@@ -50,7 +51,7 @@ fn gamma_of_right(z: vec2f) -> vec2f {
     return complex_div(value, product);
 }
 
-/// Γ(z). Error about 8 ulp of the norm for |z| < 8, growing as |z log z|.
+/// Γ(z). Error: 12 ulp of the norm for |z| < 12.
 fn complex_gamma(z: vec2f) -> vec2f {
     if z.y == 0.0 {
         return vec2f(real_gamma(z.x), flip_sign(z.y, select(0x80000000u, 0u, z.x > 1.4616321)));
@@ -72,7 +73,7 @@ fn complex_gamma(z: vec2f) -> vec2f {
     return gamma_of_right(z);
 }
 
-/// ψ(z) = Γ′(z)/Γ(z). Error a few ulp of max(|ψ|, 1).
+/// ψ(z) = Γ′(z)/Γ(z). Error: 12 ulp of max(|ψ|, 1).
 fn complex_digamma(z: vec2f) -> vec2f {
     if z.y == 0.0 {
         return vec2f(real_digamma(z.x), z.y);
@@ -99,7 +100,7 @@ fn complex_digamma(z: vec2f) -> vec2f {
     return (complex_log(top) - sum) - (0.5 * r + complex_mul(w, series));
 }
 
-/// ψ′(z). Error a few ulp of the norm.
+/// ψ′(z). Error: 12 ulp of the largest term, |1/z²| or |π²/sin² πz|.
 fn complex_trigamma(z: vec2f) -> vec2f {
     if z.y == 0.0 {
         return vec2f(real_trigamma(z.x), -z.y);

@@ -23,7 +23,8 @@ fn is_gamma_pole(x: f32) -> bool {
 
 /// 1 / Γ(1 + t), |t| ≤ 1/2; coefficients.py, rgamma.
 fn rgamma_polynomial(t: f32) -> f32 {
-    return 1.0 + t * (0.5772157 + t * (-0.6558781 + t * (-0.042004284 + t * (0.16654077 + t * (-0.04217406 + t * (-0.009643311 + t * (0.0070938193 + t * -0.0010776047)))))));
+    return 1.0 + t * (0.5772157 + t * (-0.6558781 + t * (-0.042004284 + t * (0.16654077 + t * (-0.04217406 + t * (
+        -0.009643311 + t * (0.0070938193 + t * -0.0010776047)))))));
 }
 
 /// log Γ(x) - (x - 1/2) log x + x - log(2π)/2 for x > 3.5; coefficients.py, stirling.
@@ -67,6 +68,7 @@ fn gamma_of_large(x: f32) -> f32 {
 }
 
 /// Γ(x); NaN at the negative integers, ±∞ at ±0. Left of 0 by Γ(-y) = -π / (y sin πy Γ(y)).
+/// Error: 4 ulp for x > -34, 5 ulp below.
 fn real_gamma(x: f32) -> f32 {
     let y = magnitude(x);
     if y < 1e-8 {
@@ -88,11 +90,12 @@ fn real_gamma(x: f32) -> f32 {
     if y < 34.0 {
         return r / gamma_of_large(y);
     }
-    // Γ(y) overflows before the result underflows
-    return r / ((y - 1.0) * (y - 2.0)) / gamma_of_large(y - 2.0);
+    // Γ(y) overflows, and its reciprocal flushes, before the result underflows
+    return opaque(r / ((y - 1.0) * (y - 2.0) * (y - 3.0)), hidden_zero(x)) / gamma_of_large(y - 3.0);
 }
 
 /// log |Γ(x)|: ∞ at the poles. Relative accuracy near its zeros at 1 and 2; at those left of 0 absolute.
+/// Error: 3.5 ulp for x > 0; left of 0 4 ulp of max(|result|, 1, log Γ(-x)).
 fn real_lgamma(x: f32) -> f32 {
     if is_gamma_pole(x) || is_infinite(x) {
         return make_infinity(1.0);
@@ -117,15 +120,19 @@ fn lgamma_of_positive(x: f32) -> f32 {
     }
     if x < 1.5 {
         let t = select(x - 1.0, x, x < 0.5);
-        let near = t * (-0.5772157 + t * (0.8224669 + t * (-0.40068588 + t * (0.27059442 + t * (-0.20738241 + t * (0.16913113 + t * (-0.14391841 + t * (0.13112795 + t * (-0.114556514 + t * (0.06517511 + t * (-0.065422155 + t * (0.17993969 + t * -0.15788352))))))))))));
+        let near = t * (-0.5772157 + t * (0.8224669 + t * (-0.40068588 + t * (0.27059442 + t * (-0.20738241 + t * (
+            0.16913113 + t * (-0.14391841 + t * (0.13112795 + t * (-0.114556514 + t * (0.06517511 + t * (
+            -0.065422155 + t * (0.17993969 + t * -0.15788352))))))))))));
         return select(select(near, 0.0, t == 0.0), near - real_log(x), x < 0.5); // +0 at 1
     }
     let t = select(x - 2.0, x - 3.0, x >= 2.5);
-    let near = t * (0.42278433 + t * (0.32246703 + t * (-0.06735222 + t * (0.020581601 + t * (-0.0073874276 + t * (0.002879056 + t * (-0.0011778412 + t * (0.0005698234 + t * -0.00026985176))))))));
+    let near = t * (0.42278433 + t * (0.32246703 + t * (-0.06735222 + t * (0.020581601 + t * (-0.0073874276 + t * (
+        0.002879056 + t * (-0.0011778412 + t * (0.0005698234 + t * -0.00026985176))))))));
     return select(near, near + real_log(x - 1.0), x >= 2.5);
 }
 
 /// ψ(x) = Γ′(x)/Γ(x): NaN at the poles. Relative accuracy near the positive zero; at those left of 0 absolute.
+/// Error: 2.7 ulp for x > 0; left of 0 4.5 ulp of the larger term.
 fn real_digamma(x: f32) -> f32 {
     if is_gamma_pole(x) || is_nan(x) || is_infinite(x) && sign_is_set(x) {
         return make_nan(x);
@@ -150,10 +157,13 @@ fn digamma_of_positive(x: f32) -> f32 {
     let zero = hidden_zero(x);
     let d = opaque(x - select(1.4616321325302124, 0.46163213, below), zero) - select(1.2438150e-8, 1.243815e-8, below);
     let t = x - select(1.75, 0.75, below);
-    return d * (0.8581832 + t * (-0.32625458 + t * (0.15712002 + t * (-0.08228821 + t * (0.044802375 + t * (-0.024853561 + t * (0.013955669 + t * (-0.00812498 + t * (0.004646169 + t * (-0.0019586775 + t * (0.0010654647 + t * (-0.0015830761 + t * 0.0009338293)))))))))))) - select(0.0, r, below);
+    return d * (0.8581832 + t * (-0.32625458 + t * (0.15712002 + t * (-0.08228821 + t * (0.044802375 + t * (
+        -0.024853561 + t * (0.013955669 + t * (-0.00812498 + t * (0.004646169 + t * (-0.0019586775 + t * (
+        0.0010654647 + t * (-0.0015830761 + t * 0.0009338293)))))))))))) - select(0.0, r, below);
 }
 
 /// ψ′(x): ∞ at the poles. Left of 0 by ψ′(-y) = π² / sin² πy - ψ′(y) + 1/y².
+/// Error: 3 ulp for x > 0, 5.5 ulp left of 0.
 fn real_trigamma(x: f32) -> f32 {
     if is_nan(x) || is_infinite(x) && sign_is_set(x) {
         return make_nan(x);

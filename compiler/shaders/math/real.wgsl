@@ -7,7 +7,8 @@ fn sign_is_set(x: f32) -> bool {
 
 /// e^r = 1 + r + r² P(r), |r| ≤ log(2)/2; coefficients.py, expm1.
 fn expm1_polynomial(r: f32) -> f32 {
-    return r + r * r * (0.5 + r * (0.16666667 + r * (0.041666325 + r * (0.008333219 + r * (0.001394331 + r * 0.0001996244)))));
+    return r + r * r * (0.5 + r * (0.16666667 + r * (0.041666325 + r * (0.008333219 + r * (
+        0.001394331 + r * 0.0001996244)))));
 }
 
 /// x = n log 2 + r: (r, n), for |x| ≤ 200 (Cody and Waite: n times the first part of log 2 is exact).
@@ -27,16 +28,19 @@ fn exp_scaled(x: f32, k: i32) -> f32 {
 }
 
 /// e^x.
+/// Error: 1 ulp.
 fn real_exp(x: f32) -> f32 {
     return exp_scaled(x, 0);
 }
 
 /// 2^r = 1 + r P(r), |r| ≤ 1/2; coefficients.py, exp2.
 fn exp2_polynomial(r: f32) -> f32 {
-    return 1.0 + r * (0.6931472 + r * (0.2402265 + r * (0.055503264 + r * (0.009618004 + r * (0.0013400827 + r * 0.00015476375)))));
+    return 1.0 + r * (0.6931472 + r * (0.2402265 + r * (0.055503264 + r * (0.009618004 + r * (
+        0.0013400827 + r * 0.00015476375)))));
 }
 
 /// 2^x.
+/// Error: 1.3 ulp.
 fn real_exp2(x: f32) -> f32 {
     if is_nan(x) {
         return x;
@@ -47,6 +51,7 @@ fn real_exp2(x: f32) -> f32 {
 }
 
 /// e^x - 1, accurate near 0.
+/// Error: 1.5 ulp.
 fn real_expm1(x: f32) -> f32 {
     if is_nan(x) {
         return x;
@@ -81,7 +86,8 @@ fn split_logarithm(x: f32) -> vec2f {
 /// log(1 + f) = f + this: -f²/2 + f³ P(f) for √½ ≤ 1 + f ≤ √2; coefficients.py, log.
 fn log1p_tail(f: f32) -> f32 {
     let z = f * f;
-    return f * z * (0.3333333 + f * (-0.2500082 + f * (0.2000123 + f * (-0.16623364 + f * (0.14201699 + f * (-0.13160053 + f * (0.12761931 + f * -0.07635267))))))) - 0.5 * z;
+    return f * z * (0.3333333 + f * (-0.2500082 + f * (0.2000123 + f * (-0.16623364 + f * (0.14201699 + f * (
+        -0.13160053 + f * (0.12761931 + f * -0.07635267))))))) - 0.5 * z;
 }
 
 /// Whether log x needs no arithmetic: x is ±0, negative, infinite or NaN.
@@ -101,6 +107,7 @@ fn log_special(x: f32) -> f32 {
 }
 
 /// log x; -∞ at ±0, NaN below.
+/// Error: 0.9 ulp.
 fn real_log(x: f32) -> f32 {
     if log_is_special(x) {
         return log_special(x);
@@ -110,6 +117,7 @@ fn real_log(x: f32) -> f32 {
 }
 
 /// log2 x; -∞ at ±0, NaN below; exact at powers of two.
+/// Error: 2.3 ulp.
 fn real_log2(x: f32) -> f32 {
     if log_is_special(x) {
         return log_special(x);
@@ -119,6 +127,7 @@ fn real_log2(x: f32) -> f32 {
 }
 
 /// log10 x; -∞ at ±0, NaN below.
+/// Error: 2.6 ulp.
 fn real_log10(x: f32) -> f32 {
     if log_is_special(x) {
         return log_special(x);
@@ -129,6 +138,7 @@ fn real_log10(x: f32) -> f32 {
 }
 
 /// log(1 + x), accurate near 0; -∞ at -1, NaN below.
+/// Error: 1.5 ulp.
 fn real_log1p(x: f32) -> f32 {
     if magnitude(x) < 1e-8 {
         return x;
@@ -160,32 +170,38 @@ fn real_sinhcosh(x: f32) -> vec2f {
 }
 
 /// sinh x.
+/// Error: 1.7 ulp.
 fn real_sinh(x: f32) -> f32 {
     return real_sinhcosh(x).x;
 }
 
 /// cosh x.
+/// Error: 1.5 ulp.
 fn real_cosh(x: f32) -> f32 {
     return real_sinhcosh(x).y;
 }
 
 /// tanh x: t + t³ P(t²) below 0.63 (coefficients.py, tanh), then 1 - 2 / (e^2x + 1).
+/// Error: 1.4 ulp.
 fn real_tanh(x: f32) -> f32 {
     let a = magnitude(x);
     if a < 0.63 {
         let z = a * a;
-        return flip_sign(a + a * z * (-0.33333275 + z * (0.13331275 + z * (-0.05372513 + z * (0.020589832 + z * -0.005648322)))), sign_bit(x));
+        return flip_sign(a + a * z * (-0.33333275 + z * (0.13331275 + z * (-0.05372513 + z * (
+            0.020589832 + z * -0.005648322)))), sign_bit(x));
     }
     let r = 1.0 - 2.0 / (exp_scaled(2.0 * min(a, 20.0), 0) + 1.0);
     return select(flip_sign(r, sign_bit(x)), x, is_nan(x));
 }
 
 /// arsinh x: t + t³ P(t²) below 1/2 (coefficients.py, asinh), then log1p(x + x² / (1 + √(1 + x²))) (Kahan 1987).
+/// Error: 1.6 ulp.
 fn real_asinh(x: f32) -> f32 {
     let a = magnitude(x);
     if a < 0.5 {
         let z = a * a;
-        return flip_sign(a + a * z * (-0.16666643 + z * (0.074986525 + z * (-0.044384517 + z * (0.028169118 + z * -0.013237515)))), sign_bit(x));
+        return flip_sign(a + a * z * (-0.16666643 + z * (0.074986525 + z * (-0.044384517 + z * (
+            0.028169118 + z * -0.013237515)))), sign_bit(x));
     }
     if a > 1e8 || is_nan(x) {
         return flip_sign(real_log(a) + 0.6931472, sign_bit(x));
@@ -195,8 +211,9 @@ fn real_asinh(x: f32) -> f32 {
 }
 
 /// arcosh x = log1p(t + √(2t + t²)), t = x - 1; NaN below 1.
+/// Error: 2.0 ulp.
 fn real_acosh(x: f32) -> f32 {
-    if !(x >= 1.0) {
+    if is_nan(x) || x < 1.0 {
         return make_nan(x);
     }
     if x > 1e8 {
@@ -207,24 +224,28 @@ fn real_acosh(x: f32) -> f32 {
 }
 
 /// artanh x: t + t³ P(t²) below 1/2 (coefficients.py, atanh), then log1p(2x / (1 - x)) / 2; ±∞ at ±1, NaN beyond.
+/// Error: 1.1 ulp.
 fn real_atanh(x: f32) -> f32 {
     let a = magnitude(x);
     if a < 0.5 {
         let z = x * x;
-        return x + x * z * (0.33333302 + z * (0.20002519 + z * (0.14222763 + z * (0.11823733 + z * (0.051357966 + z * 0.17669164)))));
+        return x + x * z * (0.33333302 + z * (0.20002519 + z * (0.14222763 + z * (0.11823733 + z * (
+            0.051357966 + z * 0.17669164)))));
     }
-    if !(a < 1.0) {
+    if bitcast<u32>(a) >= 0x3f800000u { // from 1 on, or NaN
         return select(make_nan(x), make_infinity(x), a == 1.0);
     }
     return flip_sign(0.5 * real_log1p(2.0 * a / (1.0 - a)), sign_bit(x));
 }
 
 /// √(x² + y²) without spurious overflow or underflow; infinite when an argument is.
+/// Error: 1.2 ulp.
 fn real_hypot(x: f32, y: f32) -> f32 {
     return real_hypot3(x, y, 0.0);
 }
 
 /// √(x² + y² + z²) without spurious overflow or underflow; infinite when an argument is.
+/// Error: 1.5 ulp.
 fn real_hypot3(x: f32, y: f32, z: f32) -> f32 {
     let a = magnitude(x);
     let b = magnitude(y);
@@ -239,6 +260,7 @@ fn real_hypot3(x: f32, y: f32, z: f32) -> f32 {
 }
 
 /// The real cube root, odd: the exponent divided by three (Kahan), then Newton's iteration.
+/// Error: 0.8 ulp.
 fn real_cbrt(x: f32) -> f32 {
     let a = magnitude(x);
     if a == 0.0 || !is_finite(x) {
@@ -251,10 +273,12 @@ fn real_cbrt(x: f32) -> f32 {
     return flip_sign(t, sign_bit(x));
 }
 
-/// a mod b for finite a ≥ 0, b > 0, exactly: long division of the significands in integers, 8 bits a step.
-fn remainder_of_magnitudes(a: f32, b: f32) -> f32 {
+/// a mod b for finite a ≥ 0, b > 0, exactly: long division of the significands in integers, 8 bits a step. With
+/// `complement` b minus that unless it is 0: exact for a ≥ b, else rounded and below b.
+fn remainder_of_magnitudes(a: f32, b: f32, complement: bool) -> f32 {
     if a < b {
-        return a;
+        let below = bitcast<f32>(bitcast<u32>(b) - 1u);
+        return select(a, min(b - a, below), complement && a > 0.0);
     }
     let ua = bitcast<u32>(a);
     let ub = bitcast<u32>(b);
@@ -266,12 +290,14 @@ fn remainder_of_magnitudes(a: f32, b: f32) -> f32 {
         rest = (rest << step) % divisor;
         left -= step;
     }
-    // rest < 2^24 in units of the last place of b; in two steps, for the unit may be subnormal
-    let exponent = i32(ub >> 23u) - 127;
-    return (f32(rest) * 1.1920929e-7) * power_of_two(exponent);
+    rest = select(rest, divisor - rest, complement && rest > 0u);
+    // rest < 2^24 in units of the last place of b, by bits, for that may be subnormal (a subnormal result is 0)
+    let r = bitcast<i32>(f32(rest)) + ((i32(ub >> 23u) - 150) << 23u);
+    return select(0.0, bitcast<f32>(r), rest > 0u && r >= 0x00800000);
 }
 
 /// x - y ⌊x / y⌋, exact but for one rounding: the sign of y, |result| < |y|. NaN for y = 0.
+/// Error: 0.5 ulp.
 fn real_mod(x: f32, y: f32) -> f32 {
     let b = magnitude(y);
     if !is_finite(x) || is_nan(y) || b == 0.0 {
@@ -280,22 +306,23 @@ fn real_mod(x: f32, y: f32) -> f32 {
     if is_infinite(y) {
         return select(select(y, x, sign_bit(x) == sign_bit(y)), with_sign(0.0, y), x == 0.0);
     }
-    let r = remainder_of_magnitudes(magnitude(x), b);
-    if r == 0.0 || sign_bit(x) == sign_bit(y) {
-        return with_sign(r, y);
-    }
-    return with_sign(min(b - r, bitcast<f32>(bitcast<u32>(b) - 1u)), y);
+    return with_sign(remainder_of_magnitudes(magnitude(x), b, sign_bit(x) != sign_bit(y)), y);
 }
 
 /// x - ⌊x⌋, in [0, 1): a tiny negative x gives the largest number below 1.
+/// Error: 0.5 ulp.
 fn real_fract(x: f32) -> f32 {
+    if !is_finite(x) {
+        return make_nan(x);
+    }
     return min(x - floor(x), 0.99999994);
 }
 
 /// x to the nearest integer, halves away from zero.
+/// Error: none.
 fn real_round(x: f32) -> f32 {
     let a = magnitude(x);
-    if !(a < 8388608.0) {
+    if bitcast<u32>(a) >= 0x4b000000u { // from 2^23 on, or NaN
         return x;
     }
     let t = floor(a);
@@ -303,6 +330,7 @@ fn real_round(x: f32) -> f32 {
 }
 
 /// -1, 0 or 1; 0 for both zeros.
+/// Error: none.
 fn real_sign(x: f32) -> f32 {
     if is_nan(x) {
         return x;

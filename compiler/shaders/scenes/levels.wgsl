@@ -3,7 +3,7 @@
 // Settings:
 // | name         | type  | default          | range      | unit   | meaning |
 // | spacing      | f32   | 0                | 0..        | value  | between level lines; 0: a quarter of color_scale |
-// | color_scale  | f32   | 1                | >0         | value  | where the colour has gone 71 % of the way to its end |
+// | color_scale  | f32   | 0                | 0..        | value  | where the colour has gone 71 % of the way to its end; 0: the runtime takes it from the view, a host that does not gets 1 |
 // | line_width   | f32   | 1.2              | 0..20      | pixels | of level lines |
 // | zero_width   | f32   | 2.6              | 0..20      | pixels | of the line f = 0; 0: like the others |
 // | line_opacity | f32   | 0.5              | 0..1       |        | of level lines |
@@ -66,9 +66,14 @@ fn sample_window() -> f32 {
     return 1.0 / f32(max(view.samples, 1u));
 }
 
+// The scale of the colours, 1 where none is set.
+fn color_scale() -> f32 {
+    return select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
+}
+
 // The real line onto (-1, 1): f/√(1 + f²) in units of color_scale.
 fn saturate_value(value: f32) -> f32 {
-    let x = clamp(value / max(settings.color_scale, 1e-37), -1e18, 1e18);
+    let x = clamp(value / color_scale(), -1e18, 1e18);
     return x * inverseSqrt(1.0 + x * x);
 }
 
@@ -84,7 +89,7 @@ fn palette_colour(t: f32) -> vec3f {
 // Mean colour where the value runs linearly over value ± reach. The part beyond ±8 color_scale has the end colours;
 // the rest is integrated by the four-point Gauss rule.
 fn mean_colour(value: f32, reach: f32) -> vec3f {
-    let scale = max(settings.color_scale, 1e-37);
+    let scale = color_scale();
     if reach < 0.05 * scale {
         return palette_colour(saturate_value(value));
     }
@@ -106,7 +111,7 @@ fn ramp_at(value: f32) -> vec3f {
 }
 
 fn level_spacing() -> f32 {
-    return max(select(0.25 * settings.color_scale, settings.spacing, settings.spacing > 0.0), 1e-37);
+    return max(select(0.25 * color_scale(), settings.spacing, settings.spacing > 0.0), 1e-37);
 }
 
 // Coverage by lines at the multiples of `spacing`. `rate` is the change of value per pixel.

@@ -5,13 +5,15 @@ use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
+use super::names::MAX_CALL_DEPTH;
+use super::suggest::quoted;
 use super::symbols::Symbols;
 use super::{Value, library, named_constant};
 use crate::ir::{Graph, Id, Op, Ty};
 use crate::types::Type;
 
 /// Greatest depth of nested expressions, those of called functions included.
-pub const MAX_DEPTH: usize = 1000;
+pub const MAX_DEPTH: usize = 400;
 
 /// Which text an expression belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -60,6 +62,12 @@ impl<'a> Builder<'a> {
         }
     }
 
+    /// The program's functions that have been called.
+    pub fn called(&self) -> impl Iterator<Item = &'a str> + '_ {
+        let of_program = |key: &&(Source, &'a str, Vec<Value>)| key.0 == Source::Program;
+        self.calls.keys().filter(of_program).map(|key| key.1)
+    }
+
     /// Reports a problem; the value is then an error, which is not reported again.
     pub fn report(&mut self, problem: Diagnostic) -> Value {
         self.diagnostics.push(problem);
@@ -104,15 +112,21 @@ impl<'a> Builder<'a> {
             Expr::Binary { .. } => self.chain(id),
             Expr::Unary { op, arg } => {
                 let value = self.expr(*arg);
-                self.unary(*op, &value, span)
+                self.unary(*op, &value, span, file.exprs.span(*arg))
             }
-            Expr::Compare { first, rest } => self.comparison(*first, rest),
-            Expr::Call { callee, primes, args } => self.call(callee, *primes, args, span),
+            Expr::Compare { first, rest } => self.comparison(*first, rest, span),
+            Expr::Call {
+                callee,
+                primes,
+                args,
+            } => self.call(callee, *primes, args, span),
             Expr::Member { base, field } => self.swizzle(*base, field),
             Expr::Vector(items) => self.vector(items),
-            Expr::If { cond, then, otherwise } => {
-                self.choice(std::iter::once((*cond, *then)), Some(*otherwise), span)
-            }
+            Expr::If {
+                cond,
+                then,
+                otherwise,
+            } => self.choice(std::iter::once((*cond, *then)), Some(*otherwise), span),
             Expr::Piecewise { arms, otherwise } => {
                 self.choice(arms.iter().copied(), *otherwise, span)
             }
@@ -130,9 +144,12 @@ impl<'a> Builder<'a> {
             first = *lhs;
         }
         let mut value = self.expr(first);
+        let mut span = file.exprs.span(first);
         while let Some((node, op, rhs)) = links.pop() {
             let right = self.expr(rhs);
-            value = self.binary(op, &value, &right, file.exprs.span(node));
+            let whole = file.exprs.span(node);
+            value = self.binary(op, (&value, span), (&right, file.exprs.span(rhs)), whole);
+            span = whole;
         }
         value
     }
@@ -213,6 +230,10 @@ impl<'a> Builder<'a> {
         scope: Vec<(&'a str, Value)>,
         body: ExprId,
     ) -> Value {
+        // longer chains have been reported by the pass over names
+        if self.active.len() > MAX_CALL_DEPTH + 1 {
+            return Value::Error;
+        }
         let file = match source {
             Source::Program => self.program,
             Source::Library => library::file(),
@@ -249,7 +270,11 @@ impl<'a> Builder<'a> {
                 None => failed = true,
             }
         }
-        if failed { Value::Error } else { Value::Vector(ids) }
+        if failed {
+            Value::Error
+        } else {
+            Value::Vector(ids)
+        }
     }
 
     fn swizzle(&mut self, base: ExprId, field: &'a Name) -> Value {
@@ -258,7 +283,9 @@ impl<'a> Builder<'a> {
             Value::Error => return Value::Error,
             Value::Vector(items) => items.clone(),
             Value::Scalar(_) => {
-                let Some(ty) = value.ty(&self.graph) else { return Value::Error };
+                let Some(ty) = value.ty(&self.graph) else {
+                    return Value::Error;
+                };
                 let problem = Diagnostic::error(
                     "bad-swizzle",
                     field.span,
@@ -287,21 +314,25 @@ impl<'a> Builder<'a> {
     }
 
     fn bad_swizzle(&mut self, field: &Name, letter: char, size: usize) -> Value {
-        let known = &"xyzw"[..size.min(4)];
-        let message = if letter == ' ' {
-            format!("`.{}` has more than four letters", field.text)
+        let (known, twins) = (&"xyzw"[..size.min(4)], &"rgba"[..size.min(4)]);
+        let (message, hint) = if letter == ' ' {
+            let message = format!("{} has more than four letters", quoted(&field.text));
+            (message, "a vector has at most 4 components".to_owned())
         } else {
-            format!("a vec{size} has no component `{letter}`")
+            let message = format!("a vec{size} has no component `{letter}`");
+            (
+                message,
+                format!("the components of a vec{size} are {known}, or {twins}"),
+            )
         };
-        self.report(
-            Diagnostic::error("bad-swizzle", field.span, message)
-                .with_hint(format!("components are named with the letters {known}")),
-        )
+        self.report(Diagnostic::error("bad-swizzle", field.span, message).with_hint(hint))
     }
 
     /// The function of the program with this name.
     pub(super) fn user_function(&self, name: &str) -> Option<&'a Function> {
-        (self.source == Source::Program).then(|| self.symbols.functions.get(name).copied()).flatten()
+        (self.source == Source::Program)
+            .then(|| self.symbols.functions.get(name).copied())
+            .flatten()
     }
 
     /// Where an expression of the current text stands, in the user's text.

@@ -108,16 +108,25 @@ pub fn builtins() -> &'static [Builtin] {
 pub fn by_name(name: &str) -> Option<&'static Builtin> {
     static INDEX: OnceLock<FxHashMap<&'static str, &'static Builtin>> = OnceLock::new();
     let index = INDEX.get_or_init(|| {
-        builtins().iter().flat_map(|b| b.names.iter().map(move |&n| (n, b))).collect()
+        builtins()
+            .iter()
+            .flat_map(|b| b.names.iter().map(move |&n| (n, b)))
+            .collect()
     });
     index.get(name).copied()
 }
 
 fn mismatch(b: &mut Builder, span: Span, expected: &str, found: &Value) -> Value {
-    let Some(ty) = found.ty(&b.graph) else { return Value::Error };
+    let Some(ty) = found.ty(&b.graph) else {
+        return Value::Error;
+    };
     b.report(
-        Diagnostic::error("type-mismatch", span, format!("expected {expected}, found {ty}"))
-            .with_label(format!("this is {ty}")),
+        Diagnostic::error(
+            "type-mismatch",
+            span,
+            format!("expected {expected}, found {ty}"),
+        )
+        .with_label(format!("this is {ty}")),
     )
 }
 
@@ -212,7 +221,11 @@ fn cross(b: &mut Builder, args: &[Value], span: Span) -> Value {
         let (left, right) = (g.mul(p[i], q[j]), g.mul(p[j], q[i]));
         g.sub(left, right)
     };
-    Value::Vector(SmallVec::from_slice(&[minor(1, 2), minor(2, 0), minor(0, 1)]))
+    Value::Vector(SmallVec::from_slice(&[
+        minor(1, 2),
+        minor(2, 0),
+        minor(0, 1),
+    ]))
 }
 
 fn rotate(b: &mut Builder, args: &[Value], span: Span) -> Value {

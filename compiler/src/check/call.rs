@@ -5,6 +5,7 @@ use pullback_grammar::{Diagnostic, Span};
 use smallvec::SmallVec;
 
 use super::names::signature;
+use super::suggest::quoted;
 use super::{Builder, Source, Value, builtins, library};
 use crate::ir::{Prim, Ty};
 use crate::table;
@@ -81,10 +82,12 @@ impl<'a> Builder<'a> {
             return Value::Error;
         }
         for (k, formal) in function.params.iter().enumerate() {
-            let Some(ty) = formal.ty.as_ref().map(|t| Type::from_name(&t.text)) else { continue };
+            let Some(ty) = formal.ty.as_ref().map(|t| Type::from_name(&t.text)) else {
+                continue;
+            };
             let Some(ty) = ty else { return Value::Error };
             let place = spans.get(k).copied().unwrap_or(span);
-            values[k] = self.convert(&values[k], ty, place, function);
+            values[k] = self.convert(&values[k], ty, place, function, k);
             if values[k] == Value::Error {
                 return Value::Error;
             }
@@ -102,7 +105,7 @@ impl<'a> Builder<'a> {
         let before = self.diagnostics.len();
         let value = self.outside(name, Source::Program, scope, function.body);
         for problem in self.diagnostics.iter_mut().skip(before) {
-            if problem.code == "type-mismatch" && problem.related.is_empty() {
+            if problem.code == "type-mismatch" && problem.related.is_empty() && !spans.is_empty() {
                 problem.related.push((span, "in this call".to_owned()));
             }
         }
@@ -111,8 +114,18 @@ impl<'a> Builder<'a> {
         value
     }
 
-    fn convert(&mut self, value: &Value, ty: Type, span: Span, function: &Function) -> Value {
-        let Some(found) = value.ty(&self.graph) else { return Value::Error };
+    /// The k-th argument of a function as what the annotation says.
+    fn convert(
+        &mut self,
+        value: &Value,
+        ty: Type,
+        span: Span,
+        function: &Function,
+        k: usize,
+    ) -> Value {
+        let Some(found) = value.ty(&self.graph) else {
+            return Value::Error;
+        };
         match value {
             _ if found == ty => value.clone(),
             Value::Scalar(id) if found == Type::Real && ty == Type::Complex => {
@@ -122,10 +135,16 @@ impl<'a> Builder<'a> {
                 let problem = Diagnostic::error(
                     "type-mismatch",
                     span,
-                    format!("expected {ty}, found {found}"),
+                    format!(
+                        "{} is {ty}, found {found}",
+                        quoted(&function.params[k].name.text)
+                    ),
                 )
                 .with_label(format!("this is {found}"))
-                .with_related(function.name.span, format!("{} is defined here", signature(function)));
+                .with_related(
+                    function.params[k].name.span,
+                    format!("{ty} in {}", signature(function)),
+                );
                 let from_complex = found == Type::Complex && ty == Type::Real;
                 self.report(if from_complex {
                     problem.with_hint("take re(…), im(…) or abs(…)")
@@ -156,7 +175,9 @@ impl<'a> Builder<'a> {
                 size = Some(items.len());
             }
         }
-        let Some(size) = size else { return self.library_scalar(function, values, span) };
+        let Some(size) = size else {
+            return self.library_scalar(function, values, span);
+        };
         let mut out = SmallVec::new();
         for k in 0..size {
             let component = |v: &Value| match v {
@@ -165,7 +186,17 @@ impl<'a> Builder<'a> {
             };
             match self.library_scalar(function, values.iter().map(component).collect(), span) {
                 Value::Scalar(id) if self.graph.ty(id) == Ty::Real => out.push(id),
-                _ => return Value::Error,
+                Value::Error => return Value::Error,
+                _ => {
+                    return self.report(
+                        Diagnostic::error(
+                            "type-mismatch",
+                            span,
+                            format!("`{}` does not take vectors and complex numbers together", function.name),
+                        )
+                        .with_hint("a vector has real components: take re(…) or im(…) of the complex number"),
+                    );
+                }
             }
         }
         Value::Vector(out)
@@ -181,11 +212,23 @@ impl<'a> Builder<'a> {
         if formals.len() != values.len() {
             return Value::Error;
         }
-        let shown: Vec<String> =
-            values.iter().filter_map(|v| v.ty(&self.graph)).map(|t| t.to_string()).collect();
-        let scope = formals.iter().map(|p| p.name.text.as_str()).zip(values).collect();
+        let shown: Vec<String> = values
+            .iter()
+            .filter_map(|v| v.ty(&self.graph))
+            .map(|t| t.to_string())
+            .collect();
+        let scope = formals
+            .iter()
+            .map(|p| p.name.text.as_str())
+            .zip(values)
+            .collect();
         let before = self.diagnostics.len();
-        let value = self.outside(function.name, Source::Library, scope, function.function.body);
+        let value = self.outside(
+            function.name,
+            Source::Library,
+            scope,
+            function.function.body,
+        );
         if self.diagnostics.len() > before {
             // places inside of the library mean nothing to the user
             self.diagnostics.truncate(before);

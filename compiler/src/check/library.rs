@@ -29,9 +29,8 @@ const SOURCE: &str = include_str!("library.pull");
 pub fn file() -> &'static File {
     static FILE: OnceLock<File> = OnceLock::new();
     FILE.get_or_init(|| {
-        let known = |name: &str| {
-            table::by_name(name).is_some() || builtins::by_name(name).is_some()
-        };
+        let known =
+            |name: &str| table::by_name(name).is_some() || builtins::by_name(name).is_some();
         pullback_grammar::parse(SOURCE, &known).file
     })
 }
@@ -43,7 +42,9 @@ pub fn library_functions() -> &'static [LibraryFunction] {
     FUNCTIONS.get_or_init(|| {
         let mut functions = Vec::new();
         for item in &file().items {
-            let Item::Function(function) = item else { continue };
+            let Item::Function(function) = item else {
+                continue;
+            };
             let definition = function.span.text(SOURCE);
             let usage = definition.split('=').next().unwrap_or("").trim();
             let before = SOURCE.get(..function.span.start as usize).unwrap_or("");

@@ -13,8 +13,8 @@ mod value;
 pub use builder::{Builder, Source};
 pub use builtins::{Builtin, builtins};
 pub use library::{LibraryFunction, library_functions};
-pub use names::{check_names, free_variables};
-pub use suggest::nearest;
+pub use names::{check_names, free_variables, not_constant, signature};
+pub use suggest::{nearest, quoted, shortened};
 pub use symbols::Symbols;
 pub use value::Value;
 
@@ -32,7 +32,10 @@ pub fn is_builtin_function(name: &str) -> bool {
 /// Names of functions that the language reserves and does not have yet.
 #[must_use]
 pub fn is_reserved_function(name: &str) -> bool {
-    matches!(name, "sum" | "product" | "iterate" | "diff" | "grad" | "integral")
+    matches!(
+        name,
+        "sum" | "product" | "iterate" | "diff" | "grad" | "integral"
+    )
 }
 
 /// The value of a named constant of the language.

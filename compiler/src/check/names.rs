@@ -1,12 +1,14 @@
 //! Names: every name that is used must mean something, and no definition may need itself.
 
-use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Name};
+use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Name, Setting};
 use pullback_grammar::{Diagnostic, Span};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::suggest::{quoted, shortened};
 use super::symbols::reserved;
 use super::{
-    Symbols, builtins, is_builtin_function, is_builtin_value, is_reserved_function, library, nearest,
+    Symbols, builtins, is_builtin_function, is_builtin_value, is_reserved_function, library,
+    nearest,
 };
 use crate::table;
 
@@ -24,10 +26,10 @@ pub fn check_names<'a>(file: &'a File, symbols: &Symbols<'a>, diagnostics: &mut 
             Item::Function(function) => walk.function(function),
             Item::Constant(constant) => walk.definition(&constant.name.text, constant.value),
             Item::Param(param) => {
-                walk.definition(&param.name.text, param.default);
-                if let Some((lo, hi)) = param.range {
-                    walk.definition(&param.name.text, lo);
-                    walk.definition(&param.name.text, hi);
+                let name = &param.name.text;
+                walk.fixed(Some(name), "the default of a parameter", param.default);
+                for end in param.range.iter().flat_map(|&(lo, hi)| [lo, hi]) {
+                    walk.fixed(Some(name), "an end of a range", end);
                 }
             }
             Item::Formula(formula) => walk.formula(formula.body),
@@ -39,6 +41,7 @@ pub fn check_names<'a>(file: &'a File, symbols: &Symbols<'a>, diagnostics: &mut 
                         walk.formula(arg);
                     }
                 }
+                walk.settings(&show.settings);
             }
         }
     }
@@ -52,7 +55,10 @@ pub fn free_variables(file: &File, symbols: &Symbols, formula: ExprId) -> Vec<&'
     let mut walk = Walk::new(&file.exprs, symbols, &mut ignored);
     walk.formula(formula);
     let free = std::mem::take(&mut walk.free);
-    FREE_NAMES.into_iter().filter(|name| free.contains(name)).collect()
+    FREE_NAMES
+        .into_iter()
+        .filter(|name| free.contains(name))
+        .collect()
 }
 
 struct Walk<'a, 'd> {
@@ -64,6 +70,8 @@ struct Walk<'a, 'd> {
     pending: Vec<&'a Name>,
     /// Whether free variables are inputs.
     in_formula: bool,
+    /// What must be a constant, if that is walked: no inputs, no parameters, no clock.
+    fixed: Option<&'static str>,
     free: Vec<&'static str>,
     /// The definition that is being walked.
     current: Option<&'a str>,
@@ -84,6 +92,7 @@ impl<'a, 'd> Walk<'a, 'd> {
             scope: Vec::new(),
             pending: Vec::new(),
             in_formula: false,
+            fixed: None,
             free: Vec::new(),
             current: None,
             uses: FxHashMap::default(),
@@ -101,9 +110,11 @@ impl<'a, 'd> Walk<'a, 'd> {
                     Diagnostic::error(
                         "duplicate-parameter",
                         formal.name.span,
-                        format!("`{}` is a parameter twice", formal.name.text),
+                        format!("{} is a parameter twice", quoted(&formal.name.text)),
                     )
-                    .with_related(first.span, "first here"),
+                    .with_label("named again")
+                    .with_related(first.span, "first here")
+                    .with_hint("rename one of them"),
                 );
             }
             seen.push(&formal.name);
@@ -113,7 +124,11 @@ impl<'a, 'd> Walk<'a, 'd> {
                 self.diagnostics.push(unknown_type(ty));
             }
         }
-        self.scope = function.params.iter().map(|p| p.name.text.as_str()).collect();
+        self.scope = function
+            .params
+            .iter()
+            .map(|p| p.name.text.as_str())
+            .collect();
         self.definition(&function.name.text, function.body);
         self.scope.clear();
     }
@@ -122,6 +137,27 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.current = Some(name);
         self.expr(body);
         self.current = None;
+    }
+
+    /// An expression that must be a constant; `what` says which.
+    fn fixed(&mut self, name: Option<&'a str>, what: &'static str, body: ExprId) {
+        self.fixed = Some(what);
+        self.current = name;
+        self.expr(body);
+        self.current = None;
+        self.fixed = None;
+    }
+
+    /// The words of choices mean something to the scene only, and are not looked up.
+    fn settings(&mut self, settings: &'a [Setting]) {
+        for setting in settings {
+            for value in [Some(setting.value), setting.upper].into_iter().flatten() {
+                let is_input = |name: &Name| FREE_NAMES.contains(&name.text.as_str());
+                if !matches!(&self.exprs[value], Expr::Name(name) if !is_input(name)) {
+                    self.fixed(None, "a setting", value);
+                }
+            }
+        }
     }
 
     fn formula(&mut self, body: ExprId) {
@@ -148,12 +184,26 @@ impl<'a, 'd> Walk<'a, 'd> {
             }
             Expr::Call { callee, args, .. } => {
                 self.callee(callee, args.len());
-                args.iter().for_each(|a| self.expr(*a));
+                let takes_functions = is_reserved_function(&callee.text);
+                for &arg in args {
+                    let is_function =
+                        |n: &Name| self.symbols.functions.contains_key(n.text.as_str());
+                    if !(takes_functions && matches!(&exprs[arg], Expr::Name(n) if is_function(n)))
+                    {
+                        self.expr(arg);
+                    }
+                }
             }
             Expr::Member { base, .. } => self.expr(*base),
             Expr::Vector(items) => items.iter().for_each(|e| self.expr(*e)),
-            Expr::If { cond, then, otherwise } => {
-                [cond, then, otherwise].into_iter().for_each(|e| self.expr(*e));
+            Expr::If {
+                cond,
+                then,
+                otherwise,
+            } => {
+                [cond, then, otherwise]
+                    .into_iter()
+                    .for_each(|e| self.expr(*e));
             }
             Expr::Piecewise { arms, otherwise } => {
                 for (cond, value) in arms {
@@ -169,10 +219,18 @@ impl<'a, 'd> Walk<'a, 'd> {
     fn locals(&mut self, body: ExprId, locals: &'a [(Name, ExprId)]) {
         let depth = self.scope.len();
         let pending = self.pending.len();
-        self.pending.extend(locals.iter().rev().map(|(name, _)| name));
+        self.pending
+            .extend(locals.iter().rev().map(|(name, _)| name));
+        let mut seen: FxHashMap<&str, Span> = FxHashMap::default();
         for (name, value) in locals {
             if let Some(problem) = reserved(name) {
                 self.diagnostics.push(problem);
+            }
+            match seen.get(name.text.as_str()) {
+                Some(&first) => self.diagnostics.push(duplicate(name, first)),
+                None => {
+                    seen.insert(&name.text, name.span);
+                }
             }
             self.expr(*value);
             self.pending.pop();
@@ -200,6 +258,7 @@ impl<'a, 'd> Walk<'a, 'd> {
             return;
         }
         if self.is_value(text) {
+            self.check_fixed(name);
             return;
         }
         if let Some(free) = FREE_NAMES.iter().find(|n| **n == text)
@@ -210,30 +269,53 @@ impl<'a, 'd> Walk<'a, 'd> {
             }
             return;
         }
+        if let Some(what) = self.fixed
+            && FREE_NAMES.contains(&text)
+        {
+            self.diagnostics
+                .push(not_constant(name.span, what).with_label("an input of formulas"));
+            return;
+        }
         let problem = if self.symbols.functions.contains_key(text) || is_builtin_function(text) {
             Diagnostic::error(
                 "function-without-call",
                 name.span,
-                format!("`{text}` is a function"),
+                format!("{} is a function", quoted(text)),
             )
             .with_label("needs its arguments")
-            .with_hint(format!("write {}", self.usage(text)))
+            .with_hint(format!("write `{}`", self.usage(text)))
         } else {
             self.unknown(name)
         };
         self.diagnostics.push(problem);
     }
 
+    /// Reports parameters and the clock where a constant is wanted.
+    fn check_fixed(&mut self, name: &Name) {
+        let Some(what) = self.fixed else { return };
+        let text = name.text.as_str();
+        let label = match text {
+            "time" | "pixel" => "changes with the picture",
+            _ if self.symbols.params.contains_key(text) => "a parameter",
+            _ => return,
+        };
+        self.diagnostics
+            .push(not_constant(name.span, what).with_label(label));
+    }
+
     fn unknown(&self, name: &Name) -> Diagnostic {
         let text = name.text.as_str();
-        let problem =
-            Diagnostic::error("unknown-name", name.span, format!("unknown name `{text}`"))
-                .with_label("not defined");
+        let problem = Diagnostic::error(
+            "unknown-name",
+            name.span,
+            format!("unknown name {}", quoted(text)),
+        )
+        .with_label("not defined");
         if let Some(local) = self.pending.iter().rev().find(|n| n.text == text) {
             return Diagnostic::error(
                 "used-before-definition",
                 name.span,
-                format!("`{text}` is used before it is defined"),
+                format!("{} is used before it is defined", quoted(text)),
             )
             .with_related(local.span, "defined here")
             .with_hint("each local sees those before it: move the definition up");
@@ -250,23 +332,44 @@ impl<'a, 'd> Walk<'a, 'd> {
             .chain(inputs.iter().copied())
             .chain(["pi", "tau", "phi", "e", "time", "pixel"]);
         match nearest(text, candidates) {
-            Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
-            None if text == "z" && !self.in_formula => problem.with_hint(
-                "add z to the function's parameters, or define it with `where z = …`",
-            ),
+            Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),
+            None if FREE_NAMES.contains(&text) && !self.in_formula => {
+                problem.with_hint(format!("{}, or define it", self.how_to_take(text)))
+            }
             None => problem.with_hint(format!(
-                "define it: `{text} = …`, or `param {text} = 1 in 0..2` for a slider"
+                "define it: `{0} = …`, or `param {0} = 1 in 0..2` for a slider",
+                shortened(text)
             )),
+        }
+    }
+
+    /// How the definition that is walked gets an input.
+    fn how_to_take(&self, input: &str) -> String {
+        let current = self.current.unwrap_or("f");
+        match self.symbols.functions.get(current) {
+            Some(function) => {
+                let mut params: Vec<&str> = function
+                    .params
+                    .iter()
+                    .map(|p| p.name.text.as_str())
+                    .collect();
+                params.push(input);
+                format!(
+                    "write `{}({}) = …`",
+                    shortened(current),
+                    shortened(&params.join(", "))
+                )
+            }
+            None => format!("write `{}({input}) = …`", shortened(current)),
         }
     }
 
     /// `xy` as `x y`, where every letter has a meaning.
     fn as_product(&self, text: &str) -> Option<String> {
-        let letters: Vec<String> = text.chars().map(String::from).collect();
-        let known = |l: &String| {
-            self.is_value(l) || (self.in_formula && FREE_NAMES.contains(&l.as_str()))
-        };
-        (letters.len() > 1 && letters.iter().all(known)).then(|| letters.join(" "))
+        let letters: Vec<String> = text.chars().take(9).map(String::from).collect();
+        let known =
+            |l: &String| self.is_value(l) || (self.in_formula && FREE_NAMES.contains(&l.as_str()));
+        ((2..=8).contains(&letters.len()) && letters.iter().all(known)).then(|| letters.join(" "))
     }
 
     fn usage(&self, name: &str) -> String {
@@ -281,9 +384,13 @@ impl<'a, 'd> Walk<'a, 'd> {
         if let Some(function) = self.symbols.functions.get(text).copied() {
             self.record_use(text, callee.span);
             if function.params.len() != given {
-                let problem =
-                    wrong_arity(callee, given, &function.params.len().to_string(), &signature(function))
-                        .with_related(function.name.span, "defined here");
+                let problem = wrong_arity(
+                    callee,
+                    given,
+                    &function.params.len().to_string(),
+                    &signature(function),
+                )
+                .with_related(function.name.span, "defined here");
                 self.diagnostics.push(problem);
             }
             return;
@@ -301,7 +408,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
         if let Some((expected, usage)) = builtin_arity(text, given) {
             if let Some(expected) = expected {
-                self.diagnostics.push(wrong_arity(callee, given, &expected, &usage));
+                self.diagnostics
+                    .push(wrong_arity(callee, given, &expected, &usage));
             }
             return;
         }
@@ -313,18 +421,25 @@ impl<'a, 'd> Walk<'a, 'd> {
         let problem = Diagnostic::error(
             "unknown-function",
             callee.span,
-            format!("unknown function `{text}`"),
+            format!("unknown function {}", quoted(text)),
         )
         .with_label("not defined");
         let known = table::rows()
             .iter()
             .flat_map(|r| r.names.iter().copied())
-            .chain(builtins::builtins().iter().flat_map(|b| b.names.iter().copied()))
+            .chain(
+                builtins::builtins()
+                    .iter()
+                    .flat_map(|b| b.names.iter().copied()),
+            )
             .chain(library::library_functions().iter().map(|f| f.name))
             .chain(self.symbols.functions.keys().copied());
         match nearest(text, known) {
-            Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
-            None => problem.with_hint(format!("define it: `{text}(x) = …`, or write a product with a sign or a blank")),
+            Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),
+            None => problem.with_hint(format!(
+                "define it: `{0}(x) = …`, or write a product as `{0} (…)`",
+                shortened(text)
+            )),
         }
     }
 
@@ -335,12 +450,35 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 }
 
+/// What must be a constant is none.
+pub fn not_constant(span: Span, what: &str) -> Diagnostic {
+    Diagnostic::error("not-constant", span, format!("{what} must be a constant"))
+        .with_hint("it may use numbers and constants, but no parameters, inputs or `time`")
+}
+
+fn duplicate(name: &Name, first: Span) -> Diagnostic {
+    let message = format!("{} is defined twice", quoted(&name.text));
+    Diagnostic::error("duplicate-definition", name.span, message)
+        .with_label("defined again")
+        .with_related(first, "first defined here")
+        .with_hint("rename one of them")
+}
+
 fn unknown_type(ty: &Name) -> Diagnostic {
     let types = ["real", "complex", "vec2", "vec3", "vec4", "bool"];
-    let problem =
-        Diagnostic::error("unknown-type", ty.span, format!("unknown type `{}`", ty.text));
+    let message = format!("unknown type {}", quoted(&ty.text));
+    let problem = Diagnostic::error("unknown-type", ty.span, message);
+    let meant = match ty.text.as_str() {
+        "float" | "double" | "f32" | "f64" | "int" | "integer" | "number" | "scalar" | "R" => {
+            "real"
+        }
+        "C" | "complex64" | "complex128" => "complex",
+        "boolean" | "truth" => "bool",
+        _ => "",
+    };
     match nearest(&ty.text, types) {
-        Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
+        _ if !meant.is_empty() => problem.with_hint(format!("write `{meant}`")),
+        Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),
         None => problem.with_hint("types are real, complex, vec2, vec3, vec4 and bool"),
     }
 }
@@ -355,18 +493,21 @@ pub fn signature(function: &Function) -> String {
             None => p.name.text.clone(),
         })
         .collect();
-    format!("{}({})", function.name.text, params.join(", "))
+    shortened(&format!("{}({})", function.name.text, params.join(", ")))
 }
 
 fn wrong_arity(callee: &Name, given: usize, expected: &str, usage: &str) -> Diagnostic {
-    let plural = if given == 1 { "" } else { "s" };
+    let plural = if expected == "1" { "" } else { "s" };
     Diagnostic::error(
         "wrong-arity",
         callee.span,
-        format!("`{}` takes {expected}, not {given} argument{plural}", callee.text),
+        format!(
+            "{} takes {expected} argument{plural}, not {given}",
+            quoted(&callee.text)
+        ),
     )
     .with_label(format!("called with {given}"))
-    .with_hint(format!("it is written {usage}"))
+    .with_hint(format!("it is written `{usage}`"))
 }
 
 /// For a builtin: what it expects where `given` is wrong, and how it is written.
@@ -380,13 +521,20 @@ fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
     if let Some(builtin) = builtins::by_name(name) {
         let expected = (!builtin.arity.contains(&given)).then(|| {
             let (lo, hi) = (builtin.arity.start(), builtin.arity.end());
-            if lo == hi { lo.to_string() } else { format!("{lo} to {hi}") }
+            if lo == hi {
+                lo.to_string()
+            } else {
+                format!("{lo} to {hi}")
+            }
         });
         return Some((expected, builtin.usage.to_owned()));
     }
     let function = library::by_name(name)?;
     let arity = function.function.params.len();
-    Some(((given != arity).then(|| arity.to_string()), signature(function.function)))
+    Some((
+        (given != arity).then(|| arity.to_string()),
+        signature(function.function),
+    ))
 }
 
 /// Reports definitions that need themselves, and chains of calls that are too long.
@@ -398,33 +546,59 @@ fn check_cycles(
     let mut names: Vec<&str> = uses.keys().copied().collect();
     names.sort_by_key(|n| uses[n].first().map(|u| u.1));
     let mut depth: FxHashMap<&str, usize> = FxHashMap::default();
+    // a definition in a circle has no depth; it has been reported
+    let mut cyclic: FxHashSet<&str> = FxHashSet::default();
     for start in names {
+        if depth.contains_key(start) {
+            continue;
+        }
         let mut path: Vec<(&str, usize)> = vec![(start, 0)];
+        let mut on_path: FxHashSet<&str> = FxHashSet::from_iter([start]);
         while let Some(&mut (name, ref mut next)) = path.last_mut() {
             let callees = uses.get(name).map_or(&[][..], Vec::as_slice);
             let Some(&(callee, span)) = callees.get(*next) else {
-                let below = callees.iter().filter_map(|(c, _)| depth.get(c)).max().unwrap_or(&0) + 1;
-                depth.insert(name, below);
+                let is_cyclic = cyclic.contains(name);
+                let below = callees
+                    .iter()
+                    .filter_map(|(c, _)| depth.get(c))
+                    .max()
+                    .unwrap_or(&0)
+                    + 1;
+                depth.insert(name, if is_cyclic { 1 } else { below });
+                on_path.remove(name);
                 path.pop();
                 continue;
             };
             *next += 1;
-            if let Some(at) = path.iter().position(|(n, _)| *n == callee) {
+            if let Some(at) = on_path
+                .contains(callee)
+                .then(|| path.iter().position(|(n, _)| *n == callee))
+                .flatten()
+            {
                 diagnostics.push(cycle(symbols, &path[at..], callee, span));
-                depth.insert(callee, 1);
+                cyclic.extend(path[at..].iter().map(|(n, _)| *n));
             } else if !depth.contains_key(callee) {
+                on_path.insert(callee);
                 path.push((callee, 0));
             }
         }
     }
-    let too_deep = depth.iter().filter(|(_, d)| **d > MAX_CALL_DEPTH).min_by_key(|(n, d)| (**d, **n));
-    if let Some((name, _)) = too_deep
-        && let Some(function) = symbols.functions.get(name)
-    {
+    let too_deep = depth
+        .iter()
+        .filter(|(_, d)| **d > MAX_CALL_DEPTH)
+        .min_by_key(|(n, d)| (**d, **n));
+    let place = |name: &str| {
+        let function = symbols.functions.get(name).map(|f| f.name.span);
+        let constant = symbols.constants.get(name).map(|c| c.name.span);
+        function
+            .or(constant)
+            .or(symbols.params.get(name).map(|(_, p)| p.name.span))
+    };
+    if let Some((name, _)) = too_deep {
         diagnostics.push(
             Diagnostic::error(
                 "too-deep",
-                function.name.span,
+                place(name).unwrap_or_default(),
                 format!("more than {MAX_CALL_DEPTH} definitions that use each other"),
             )
             .with_hint("join some of them"),
@@ -432,19 +606,32 @@ fn check_cycles(
     }
 }
 
+/// `a → b → a`; of a long circle, its beginning.
+fn circle(path: &[(&str, usize)], callee: &str) -> String {
+    let mut names: Vec<String> = path.iter().take(5).map(|(n, _)| shortened(n)).collect();
+    if path.len() > 5 {
+        names.push(format!("… {} more …", path.len() - 5));
+    }
+    names.push(shortened(callee));
+    names.join(" → ")
+}
+
 fn cycle(symbols: &Symbols, path: &[(&str, usize)], callee: &str, span: Span) -> Diagnostic {
-    let mut chain: Vec<&str> = path.iter().map(|(n, _)| *n).collect();
-    chain.push(callee);
+    let chain = circle(path, callee);
     if symbols.constants.contains_key(callee) {
         return Diagnostic::error(
             "cyclic-constant",
             span,
-            format!("the constant `{callee}` needs its own value"),
+            format!("the constant {} needs its own value", quoted(callee)),
         )
-        .with_label(chain.join(" → "))
+        .with_label(&chain)
         .with_hint("break the circle with a number");
     }
-    Diagnostic::error("recursion", span, format!("`{callee}` calls itself"))
-        .with_label(chain.join(" → "))
-        .with_hint("a formula has no recursion; write the steps out")
+    Diagnostic::error(
+        "recursion",
+        span,
+        format!("{} calls itself", quoted(callee)),
+    )
+    .with_label(&chain)
+    .with_hint("a formula has no recursion; write the steps out")
 }

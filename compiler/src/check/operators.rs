@@ -10,7 +10,7 @@ use crate::ir::{Id, Prim, Ty};
 use crate::types::Type;
 
 impl<'a> Builder<'a> {
-    pub(super) fn unary(&mut self, op: UnaryOp, value: &Value, span: Span) -> Value {
+    pub(super) fn unary(&mut self, op: UnaryOp, value: &Value, span: Span, operand: Span) -> Value {
         match op {
             UnaryOp::Neg => self.map(Prim::Neg, std::slice::from_ref(value), span),
             UnaryOp::Sqrt => self.map(Prim::Sqrt, std::slice::from_ref(value), span),
@@ -24,20 +24,27 @@ impl<'a> Builder<'a> {
                 Value::Scalar(id) if self.graph.ty(*id) == Ty::Bool => {
                     Value::Scalar(self.graph.apply(Prim::Not, &[*id]))
                 }
-                _ => self.condition_expected(value, span),
+                _ => self.condition_expected(value, operand),
             },
         }
     }
 
-    pub(super) fn binary(&mut self, op: BinaryOp, a: &Value, b: &Value, span: Span) -> Value {
+    /// Both operands with their places, and the place of the whole.
+    pub(super) fn binary(
+        &mut self,
+        op: BinaryOp,
+        (a, a_span): (&Value, Span),
+        (b, b_span): (&Value, Span),
+        span: Span,
+    ) -> Value {
         let prim = match op {
             BinaryOp::Add => Prim::Add,
             BinaryOp::Sub => Prim::Sub,
             BinaryOp::Mul | BinaryOp::ImplicitMul => Prim::Mul,
             BinaryOp::Div => Prim::Div,
             BinaryOp::Pow => Prim::Pow,
-            BinaryOp::And => return self.logic(Prim::And, a, b, span),
-            BinaryOp::Or => return self.logic(Prim::Or, a, b, span),
+            BinaryOp::And => return self.logic(Prim::And, (a, a_span), (b, b_span)),
+            BinaryOp::Or => return self.logic(Prim::Or, (a, a_span), (b, b_span)),
         };
         self.arithmetic(prim, a, b, span)
     }
@@ -47,26 +54,32 @@ impl<'a> Builder<'a> {
         self.map(prim, &[a.clone(), b.clone()], span)
     }
 
-    fn logic(&mut self, prim: Prim, a: &Value, b: &Value, span: Span) -> Value {
-        for value in [a, b] {
-            match value {
-                Value::Error => return Value::Error,
-                Value::Scalar(id) if self.graph.ty(*id) == Ty::Bool => {}
-                _ => return self.condition_expected(value, span),
+    fn logic(&mut self, prim: Prim, a: (&Value, Span), b: (&Value, Span)) -> Value {
+        let [a, b] = [a, b].map(|(value, span)| match value {
+            Value::Scalar(id) if self.graph.ty(*id) == Ty::Bool => Some(*id),
+            _ => {
+                self.condition_expected(value, span);
+                None
             }
-        }
+        });
         match (a, b) {
-            (Value::Scalar(a), Value::Scalar(b)) => Value::Scalar(self.graph.apply(prim, &[*a, *b])),
+            (Some(a), Some(b)) => Value::Scalar(self.graph.apply(prim, &[a, b])),
             _ => Value::Error,
         }
     }
 
     fn condition_expected(&mut self, value: &Value, span: Span) -> Value {
-        let Some(ty) = value.ty(&self.graph) else { return Value::Error };
+        let Some(ty) = value.ty(&self.graph) else {
+            return Value::Error;
+        };
         self.report(
-            Diagnostic::error("condition-not-bool", span, format!("expected a condition, found {ty}"))
-                .with_label(format!("this is {ty}"))
-                .with_hint("write a comparison such as x > 0"),
+            Diagnostic::error(
+                "condition-not-bool",
+                span,
+                format!("expected a condition, found {ty}"),
+            )
+            .with_label(format!("this is {ty}"))
+            .with_hint("write a comparison such as x > 0"),
         )
     }
 
@@ -122,21 +135,27 @@ impl<'a> Builder<'a> {
     /// Warns where a constant real argument lies outside of the domain.
     fn warn_of_nan(&mut self, prim: Prim, ids: &[Id], result: Id, span: Span) {
         let constants: Option<Vec<f64>> = ids.iter().map(|&id| self.graph.as_real(id)).collect();
-        let (Some(args), Some(value)) = (constants, self.graph.as_real(result)) else { return };
+        let (Some(args), Some(value)) = (constants, self.graph.as_real(result)) else {
+            return;
+        };
         if value.is_nan() && args.iter().all(|x| !x.is_nan()) {
             let row = crate::table::row(prim);
-            let name = row.names.first().copied().unwrap_or(row.usage);
+            let name = row.sign();
             let shown: Vec<String> = args.iter().map(f64::to_string).collect();
             let problem = Diagnostic::warning(
                 "outside-domain",
                 span,
                 format!("`{name}` of the real {} is not a number", shown.join(", ")),
             );
-            self.diagnostics.push(if row.complex.is_some() && args.len() == 1 {
-                problem.with_hint(format!("for the complex value write {name}({} + 0i)", shown[0]))
-            } else {
-                problem
-            });
+            self.diagnostics
+                .push(if row.complex.is_some() && args.len() == 1 {
+                    problem.with_hint(format!(
+                        "for the complex value write {name}({} + 0i)",
+                        shown[0]
+                    ))
+                } else {
+                    problem
+                });
         }
     }
 
@@ -147,19 +166,23 @@ impl<'a> Builder<'a> {
         }
         let row = crate::table::row(prim);
         let shown: Vec<String> = tys.iter().map(Type::to_string).collect();
-        let name = row.names.first().copied().unwrap_or(row.usage);
         let problem = Diagnostic::error(
             "type-mismatch",
             span,
-            format!("`{name}` does not take {}", shown.join(" and ")),
+            format!("`{}` does not take {}", row.sign(), shown.join(" and ")),
         );
-        let vectors: Vec<&Type> = tys.iter().filter(|t| matches!(t, Type::Vector(_))).collect();
+        let vectors: Vec<&Type> = tys
+            .iter()
+            .filter(|t| matches!(t, Type::Vector(_)))
+            .collect();
         let problem = if tys.contains(&Type::Bool) {
             problem.with_hint("a condition is not a number: write if … then 1 else 0")
         } else if vectors.len() > 1 && vectors.iter().any(|t| *t != vectors[0]) {
             problem.with_hint("vectors must have the same number of components; a swizzle such as p.xy shortens one")
         } else if tys.contains(&Type::Complex) && !vectors.is_empty() {
-            problem.with_hint("a vector has real components: take re(…) or im(…) of the complex number")
+            problem.with_hint(
+                "a vector has real components: take re(…) or im(…) of the complex number",
+            )
         } else {
             problem
                 .with_label("takes reals only")
@@ -168,13 +191,22 @@ impl<'a> Builder<'a> {
         self.report(problem)
     }
 
-    pub(super) fn comparison(&mut self, first: ExprId, rest: &'a [(CompareOp, ExprId)]) -> Value {
+    pub(super) fn comparison(
+        &mut self,
+        first: ExprId,
+        rest: &'a [(CompareOp, ExprId)],
+        whole: Span,
+    ) -> Value {
         let mut left = self.expr(first);
-        let mut left_span = self.span(first);
+        // the whole has the brackets around its first and last operand, their own places have not
+        let mut left_span = Span::new(whole.start, self.span(first).end);
         let mut all: Option<Id> = None;
         let mut failed = false;
-        for &(op, right) in rest {
-            let span = left_span.join(self.span(right));
+        for (k, &(op, right)) in rest.iter().enumerate() {
+            let mut span = left_span.join(self.span(right));
+            if k + 1 == rest.len() {
+                span = Span::new(span.start, whole.end);
+            }
             left_span = self.span(right);
             let right = self.expr(right);
             match self.compare(op, &left, &right, span) {
@@ -260,7 +292,9 @@ impl<'a> Builder<'a> {
         }
         let (mut value, mut span) = last;
         while let Some((condition, arm, arm_span)) = built.pop() {
-            let Some(condition) = condition else { return Value::Error };
+            let Some(condition) = condition else {
+                return Value::Error;
+            };
             value = self.select(condition, (&arm, arm_span), (&value, span));
             span = arm_span;
         }

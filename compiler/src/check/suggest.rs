@@ -5,14 +5,40 @@
 #[must_use]
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let letters: Vec<char> = name.chars().take(64).collect();
-    let limit = letters.len().div_ceil(3);
+    // one letter is another name, not a slip
+    let limit = if letters.len() > 1 {
+        letters.len().div_ceil(3)
+    } else {
+        0
+    };
     candidates
         .into_iter()
         .filter(|c| *c != name)
-        .map(|c| (distance(&letters, &c.chars().take(64).collect::<Vec<_>>()), c))
-        .filter(|(d, c)| *d <= limit && *d < c.chars().count().max(2))
+        .map(|c| {
+            (
+                distance(&letters, &c.chars().take(64).collect::<Vec<_>>()),
+                c,
+            )
+        })
+        .filter(|(d, c)| *d <= limit && *d < c.chars().count().max(letters.len()))
         .min_by_key(|(d, c)| (*d, c.len(), *c))
         .map(|(_, c)| c)
+}
+
+/// A name in backquotes, cut where it is long.
+#[must_use]
+pub fn quoted(name: &str) -> String {
+    format!("`{}`", shortened(name))
+}
+
+/// A name or signature, cut where it is long.
+#[must_use]
+pub fn shortened(name: &str) -> String {
+    const LIMIT: usize = 60;
+    match name.char_indices().nth(LIMIT) {
+        Some((at, _)) => format!("{}…", &name[..at]),
+        None => name.to_owned(),
+    }
 }
 
 fn distance(a: &[char], b: &[char]) -> usize {
@@ -23,7 +49,9 @@ fn distance(a: &[char], b: &[char]) -> usize {
         let mut row = vec![i; b.len() + 1];
         for j in 1..=b.len() {
             let change = usize::from(!same(a[i - 1], b[j - 1]));
-            row[j] = (above[j] + 1).min(row[j - 1] + 1).min(above[j - 1] + change);
+            row[j] = (above[j] + 1)
+                .min(row[j - 1] + 1)
+                .min(above[j - 1] + change);
             if i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]) {
                 row[j] = row[j].min(before[j - 2] + 1);
             }
@@ -40,12 +68,14 @@ mod tests {
     #[test]
     fn finds_what_was_meant() {
         let names = ["sin", "sinh", "length", "smoothstep", "x", "y", "level"];
-        let check = |typed, meant: Option<&str>| assert_eq!(nearest(typed, names), meant, "{typed}");
+        let check =
+            |typed, meant: Option<&str>| assert_eq!(nearest(typed, names), meant, "{typed}");
         check("sine", Some("sin"));
         check("lenght", Some("length"));
         check("SmoothStep", Some("smoothstep"));
         check("levle", Some("level"));
         check("q", None);
+        check("Y", Some("y"));
         check("banana", None);
     }
 }

@@ -5,6 +5,7 @@ use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
 
 use super::is_builtin_function;
+use super::suggest::quoted;
 
 /// What each name at the top of a program stands for.
 #[derive(Debug, Default)]
@@ -38,8 +39,9 @@ impl<'a> Symbols<'a> {
                     Diagnostic::error(
                         "duplicate-definition",
                         name.span,
-                        format!("`{text}` is defined twice"),
+                        format!("{} is defined twice", quoted(text)),
                     )
+                    .with_label("defined again")
                     .with_related(*first, "first defined here")
                     .with_hint("rename one of them"),
                 );
@@ -112,8 +114,12 @@ pub fn reserved(name: &Name) -> Option<Diagnostic> {
         _ => return None,
     };
     Some(
-        Diagnostic::error("reserved-name", name.span, format!("`{}` is {what}", name.text))
-            .with_label("cannot be given another meaning")
-            .with_hint("use another name"),
+        Diagnostic::error(
+            "reserved-name",
+            name.span,
+            format!("`{}` is {what}", name.text),
+        )
+        .with_label("cannot be given another meaning")
+        .with_hint("use another name"),
     )
 }

@@ -1,7 +1,7 @@
 //! Forward mode: tangents of every node along one direction, with zero tangents folded away.
 
 use super::NoDerivative;
-use super::rules::{int_power_partial, nonzero_modulus, takes_second, zero_like};
+use super::rules::{int_power_partial, nonzero_modulus, sum, takes_second, zero_like};
 use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
@@ -43,13 +43,6 @@ pub fn forward(
 
 fn is_zero(g: &Graph, id: Id) -> bool {
     g.as_real(id) == Some(0.0) || g.as_complex(id) == Some((0.0, 0.0))
-}
-
-fn sum(g: &mut Graph, a: Option<Id>, b: Option<Id>) -> Option<Id> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(g.add(a, b)),
-        _ => a.or(b),
-    }
 }
 
 fn tangent(

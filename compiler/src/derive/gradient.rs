@@ -30,7 +30,9 @@ pub fn gradient(g: &mut Graph, value: Id, leaves: &[Id]) -> Result<Gradient, NoD
     {
         let adjoints: Vec<Id> = adjoints.into_iter().map(|a| a.unwrap_or(zero)).collect();
         let price = |partials: &[Id]| {
-            let roots: Vec<Id> = std::iter::once(value).chain(partials.iter().copied()).collect();
+            let roots: Vec<Id> = std::iter::once(value)
+                .chain(partials.iter().copied())
+                .collect();
             cost(g, &roots).weighted
         };
         if price(&adjoints) < price(&partials) {

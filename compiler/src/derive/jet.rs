@@ -1,7 +1,8 @@
 //! The first-order jet of a function of one complex variable.
 
-use super::{NoDerivative, forward};
-use crate::ir::{Graph, Id, Op, Prim, Ty};
+use super::NoDerivative;
+use super::rules::{int_power_partial, nonzero_modulus, sum, takes_second};
+use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
 /// Value and Wirtinger derivatives of f at z.
@@ -24,34 +25,258 @@ pub enum ComplexVariable {
     Parts(Id, Id),
 }
 
-/// The jet of `root` by a complex variable. One complex tangent serves a holomorphic expression; otherwise the
-/// partial derivatives along x and y give ∂f/∂z = (f_x - i f_y)/2 and ∂f/∂z̄ = (f_x + i f_y)/2.
+/// Derivatives of one node by z and by z̄; `None` is an exact zero. A real node keeps the first only: its second is
+/// the conjugate.
+#[derive(Clone, Copy, Debug, Default)]
+struct Tangent {
+    dz: Option<Id>,
+    dzbar: Option<Id>,
+}
+
+/// The jet of `root` by a complex variable, in one pass: each node carries ∂/∂z and, below what is not holomorphic,
+/// ∂/∂z̄. The derivative of a choice is that of the branch.
 ///
-/// Wirtinger 1927; Ahlfors, Complex Analysis, 3rd edition, section 2.1.2.
+/// Wirtinger 1927; Ahlfors, Complex Analysis, 3rd edition, section 2.1.2. Chain rule for the pair: Kreutz-Delgado,
+/// The Complex Gradient Operator and the CR-Calculus, arXiv:0906.4835, section 4.2.
 ///
 /// # Errors
 /// An operation that depends on z has no derivative rule.
 pub fn jet(g: &mut Graph, root: Id, z: ComplexVariable) -> Result<Jet, NoDerivative> {
-    let value = g.widen(root);
-    let (zero, one) = (g.real(0.0), g.real(1.0));
-    let (x_seed, y_seed) = match z {
-        ComplexVariable::Whole(z) => ((z, one), (z, g.complex(0.0, 1.0))),
-        ComplexVariable::Parts(x, y) => ((x, one), (y, one)),
-    };
-    let along_x = forward(g, &[root], &[x_seed])?[0].unwrap_or(zero);
-    if let ComplexVariable::Whole(z) = z
-        && is_holomorphic(g, root, z)
-    {
-        let dz = g.widen(along_x);
-        return Ok(Jet { value, dz, dzbar: None });
+    let live = g.reachable(&[root]);
+    let mut tangents = vec![Tangent::default(); live.len()];
+    for (leaf, dz) in seeds(g, z) {
+        tangents[leaf.index()].dz = Some(dz);
     }
-    let along_y = forward(g, &[root], &[y_seed])?[0].unwrap_or(zero);
-    let turned = turn(g, along_y);
-    let half = g.real(0.5);
-    let (difference, total) = (g.sub(along_x, turned), g.add(along_x, turned));
-    let (dz, dzbar) = (g.mul(half, difference), g.mul(half, total));
-    let (dz, dzbar) = (g.widen(dz), g.widen(dzbar));
-    Ok(Jet { value, dz, dzbar: Some(dzbar) })
+    let ids: Vec<Id> = g.ids().take(live.len()).collect();
+    for id in ids {
+        let node = g.node(id).clone();
+        let Op::Apply(prim) = node.op else { continue };
+        let depends =
+            |a: &Id| tangents[a.index()].dz.is_some() || tangents[a.index()].dzbar.is_some();
+        if live[id.index()] && node.ty != Ty::Bool && node.args.iter().any(depends) {
+            tangents[id.index()] = Rule {
+                g,
+                node: &node,
+                value: id,
+                tangents: &tangents,
+            }
+            .tangent(prim)?;
+        }
+    }
+    let zero = g.real(0.0);
+    let dz = tangents[root.index()].dz.unwrap_or(zero);
+    let dzbar = bar(g, root, tangents[root.index()]);
+    let value = g.widen(root);
+    Ok(Jet {
+        value,
+        dz: g.widen(dz),
+        dzbar: dzbar.map(|d| g.widen(d)),
+    })
+}
+
+/// ∂/∂z of the leaves: of z itself 1, of its parts x = (z + z̄)/2 and y = (z - z̄)/(2i).
+fn seeds(g: &mut Graph, z: ComplexVariable) -> Vec<(Id, Id)> {
+    match z {
+        ComplexVariable::Whole(z) => vec![(z, g.real(1.0))],
+        ComplexVariable::Parts(x, y) => vec![(x, g.real(0.5)), (y, g.complex(0.0, -0.5))],
+    }
+}
+
+/// ∂/∂z̄ of a node.
+fn bar(g: &mut Graph, id: Id, tangent: Tangent) -> Option<Id> {
+    if g.ty(id) == Ty::Real {
+        tangent.dz.map(|d| g.apply(Prim::Conj, &[d]))
+    } else {
+        tangent.dzbar
+    }
+}
+
+/// One application of the chain rule.
+struct Rule<'a> {
+    g: &'a mut Graph,
+    node: &'a Node,
+    value: Id,
+    tangents: &'a [Tangent],
+}
+
+impl Rule<'_> {
+    fn dz(&self, k: usize) -> Option<Id> {
+        self.tangents[self.node.args[k].index()].dz
+    }
+
+    fn dzbar(&mut self, k: usize) -> Option<Id> {
+        let arg = self.node.args[k];
+        bar(self.g, arg, self.tangents[arg.index()])
+    }
+
+    fn tangent(&mut self, prim: Prim) -> Result<Tangent, NoDerivative> {
+        let tangent = match table::row(prim).derivative {
+            Derivative::Zero => Tangent::default(),
+            Derivative::Missing => return Err(NoDerivative { prim }),
+            Derivative::Partial(partial) => self.each(|rule, tangents| {
+                let mut total = None;
+                for (k, tangent) in tangents.iter().enumerate() {
+                    let Some(tangent) = *tangent else { continue };
+                    let slope = partial(rule.g, &rule.node.args, rule.value, k);
+                    let term = rule.g.mul(slope, tangent);
+                    total = sum(rule.g, total, Some(term));
+                }
+                total
+            }),
+            Derivative::Structural => self.structural(prim),
+        };
+        let g = &*self.g;
+        let nonzero =
+            |t: &Id| !(g.as_real(*t) == Some(0.0) || g.as_complex(*t) == Some((0.0, 0.0)));
+        Ok(Tangent {
+            dz: tangent.dz.filter(nonzero),
+            dzbar: tangent.dzbar.filter(nonzero),
+        })
+    }
+
+    /// Applies a rule that is linear in the tangents to both derivatives.
+    fn each(&mut self, rule: impl Fn(&mut Self, &[Option<Id>]) -> Option<Id>) -> Tangent {
+        let count = self.node.args.len();
+        let dz: Vec<_> = (0..count).map(|k| self.dz(k)).collect();
+        let dz = rule(self, &dz);
+        if self.node.ty == Ty::Real {
+            return Tangent { dz, dzbar: None };
+        }
+        let dzbar: Vec<_> = (0..count).map(|k| self.dzbar(k)).collect();
+        let dzbar = if dzbar.iter().all(Option::is_none) {
+            None
+        } else {
+            rule(self, &dzbar)
+        };
+        Tangent { dz, dzbar }
+    }
+
+    fn structural(&mut self, prim: Prim) -> Tangent {
+        let args = self.node.args.clone();
+        match (prim, args.as_slice()) {
+            (Prim::Neg, _) => self.each(|r, t| t[0].map(|t| r.g.neg(t))),
+            (Prim::Add, _) => self.each(|r, t| sum(r.g, t[0], t[1])),
+            (Prim::Sub, _) => self.each(|r, t| difference(r.g, t[0], t[1])),
+            (Prim::Mul, &[a, b]) => self.each(|r, t| {
+                let left = t[0].map(|t| r.g.mul(t, b));
+                let right = t[1].map(|t| r.g.mul(a, t));
+                sum(r.g, left, right)
+            }),
+            (Prim::Div, &[a, b]) => self.each(|r, t| r.quotient(a, b, t[0], t[1])),
+            (Prim::PowInt(n), &[x]) => self.each(|r, t| {
+                let slope = int_power_partial(r.g, x, n);
+                t[0].map(|t| r.g.mul(slope, t))
+            }),
+            (Prim::Complex, _) => self.parts_joined(),
+            (Prim::Conj, _) => {
+                let (dz, dzbar) = (self.dz(0), self.dzbar(0));
+                Tangent {
+                    dz: conj(self.g, dzbar),
+                    dzbar: conj(self.g, dz),
+                }
+            }
+            (Prim::Re | Prim::Im | Prim::Abs | Prim::Arg, &[x]) => Tangent {
+                dz: self.real_part_of(prim, x),
+                dzbar: None,
+            },
+            (Prim::Min | Prim::Max, &[a, b]) => {
+                let second = takes_second(self.g, prim, a, b);
+                self.each(|r, t| r.choice(second, t[1], t[0]))
+            }
+            (Prim::Select, &[condition, ..]) => self.each(|r, t| r.choice(condition, t[1], t[2])),
+            _ => Tangent::default(),
+        }
+    }
+
+    /// (a/b)′ = (a′ - (a/b) b′)/b, and (1/b)′ = -(1/b)² b′.
+    fn quotient(&mut self, a: Id, b: Id, da: Option<Id>, db: Option<Id>) -> Option<Id> {
+        let g = &mut *self.g;
+        if let (None, Some(db)) = (da, db)
+            && g.as_real(a) == Some(1.0)
+        {
+            let square = g.apply(Prim::PowInt(2), &[self.value]);
+            let product = g.mul(square, db);
+            return Some(g.neg(product));
+        }
+        let correction = db.map(|db| g.mul(self.value, db));
+        difference(g, da, correction).map(|n| g.div(n, b))
+    }
+
+    /// x + i y: ∂ = ∂x + i ∂y with either derivative.
+    fn parts_joined(&mut self) -> Tangent {
+        self.each(|r, t| {
+            let turned = t[1].map(|t| turn(r.g, t));
+            sum(r.g, t[0], turned)
+        })
+    }
+
+    /// ∂/∂z of a real function of one operand u, with a = ∂u/∂z and b = ∂u/∂z̄:
+    /// re u: (a + b̄)/2; im u: (a - b̄)/(2i); |u|: (ē a + e b̄)/2 with e = u/|u|, or 0 at 0;
+    /// arg u: (a/u - conj(b/u))/(2i).
+    fn real_part_of(&mut self, prim: Prim, u: Id) -> Option<Id> {
+        let (a, b) = (self.dz(0), self.dzbar(0));
+        let g = &mut *self.g;
+        if g.ty(u) == Ty::Real {
+            return match prim {
+                Prim::Re => a,
+                Prim::Abs => {
+                    let sign = g.apply(Prim::Sign, &[u]);
+                    a.map(|a| g.mul(sign, a))
+                }
+                _ => None,
+            };
+        }
+        let twice = match prim {
+            Prim::Re => {
+                let b = conj(g, b);
+                sum(g, a, b)
+            }
+            Prim::Im => {
+                let b = conj(g, b);
+                difference(g, a, b).map(|d| turn_back(g, d))
+            }
+            Prim::Abs => {
+                let modulus = nonzero_modulus(g, self.value);
+                let unit = g.div(u, modulus);
+                let reflected = g.apply(Prim::Conj, &[unit]);
+                let left = a.map(|a| g.mul(reflected, a));
+                let right = conj(g, b).map(|b| g.mul(unit, b));
+                sum(g, left, right)
+            }
+            _ => {
+                let left = a.map(|a| g.div(a, u));
+                let right = b.map(|b| g.div(b, u));
+                let right = conj(g, right);
+                difference(g, left, right).map(|d| turn_back(g, d))
+            }
+        };
+        let half = g.real(0.5);
+        twice.map(|t| g.mul(half, t))
+    }
+
+    fn choice(&mut self, condition: Id, a: Option<Id>, b: Option<Id>) -> Option<Id> {
+        if a.is_none() && b.is_none() {
+            return None;
+        }
+        let zero = self.g.real(0.0);
+        let (mut a, mut b) = (a.unwrap_or(zero), b.unwrap_or(zero));
+        if self.g.ty(a) != self.g.ty(b) {
+            (a, b) = (self.g.widen(a), self.g.widen(b));
+        }
+        Some(self.g.apply(Prim::Select, &[condition, a, b]))
+    }
+}
+
+fn difference(g: &mut Graph, a: Option<Id>, b: Option<Id>) -> Option<Id> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(g.sub(a, b)),
+        (None, Some(b)) => Some(g.neg(b)),
+        (a, None) => a,
+    }
+}
+
+fn conj(g: &mut Graph, a: Option<Id>) -> Option<Id> {
+    a.map(|a| g.apply(Prim::Conj, &[a]))
 }
 
 /// i · w
@@ -61,26 +286,9 @@ fn turn(g: &mut Graph, w: Id) -> Id {
     g.apply(Prim::Complex, &[minus, re])
 }
 
-/// Whether the value depends on z through holomorphic operations only. Conditions of choices do not count: the
-/// derivative is that of the branch.
-#[must_use]
-pub fn is_holomorphic(g: &Graph, root: Id, z: Id) -> bool {
-    let live = g.reachable(&[root]);
-    let mut depends = vec![false; live.len()];
-    depends[z.index()] = true;
-    for (id, node) in g.ids().zip(g.nodes()) {
-        let Op::Apply(prim) = node.op else { continue };
-        if !live[id.index()] || node.ty == Ty::Bool || !node.args.iter().any(|a| depends[a.index()])
-        {
-            continue;
-        }
-        if matches!(table::row(prim).derivative, Derivative::Zero) {
-            continue;
-        }
-        if node.ty == Ty::Real || prim == Prim::Conj {
-            return false;
-        }
-        depends[id.index()] = true;
-    }
-    true
+/// w / i
+fn turn_back(g: &mut Graph, w: Id) -> Id {
+    let (re, im) = (g.apply(Prim::Re, &[w]), g.apply(Prim::Im, &[w]));
+    let minus = g.neg(re);
+    g.apply(Prim::Complex, &[im, minus])
 }

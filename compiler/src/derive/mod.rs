@@ -8,7 +8,7 @@ mod rules;
 
 pub use forward::forward;
 pub use gradient::{Gradient, gradient};
-pub use jet::{ComplexVariable, Jet, is_holomorphic, jet};
+pub use jet::{ComplexVariable, Jet, jet};
 pub use reverse::reverse;
 
 use crate::ir::Prim;

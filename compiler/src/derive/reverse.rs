@@ -1,48 +1,131 @@
 //! Reverse mode for one real root: adjoints of every node.
 
 use super::NoDerivative;
-use super::rules::takes_second;
+use super::rules::{sum, takes_second};
 use crate::ir::{Graph, Id, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
-/// Partial derivatives of a real root by each leaf, `None` being an exact zero; `Ok(None)` where the expression
-/// goes through complex numbers, which this mode does not treat.
+/// More choices than this on the way are left to forward mode: each costs a sweep over the graph.
+const MAX_CHOICES: usize = 32;
+
+/// Partial derivatives of a real node by each leaf; `None` is an exact zero.
+type Partials = Vec<Option<Id>>;
+
+/// Partial derivatives of a real root by each leaf; `Ok(None)` where the expression goes through complex numbers
+/// or very many choices, which this mode does not treat.
+///
+/// The gradient of a choice is the choice of the gradients of its branches, each swept by itself: passing the
+/// adjoint 0 into the branch that is not taken would give NaN where a slope there is infinite or undefined.
 ///
 /// Griewank and Walther, Evaluating Derivatives, 2nd edition, section 3.2.
 ///
 /// # Errors
 /// An operation that depends on a leaf has no derivative rule.
-pub fn reverse(
-    g: &mut Graph,
-    root: Id,
-    leaves: &[Id],
-) -> Result<Option<Vec<Option<Id>>>, NoDerivative> {
+pub fn reverse(g: &mut Graph, root: Id, leaves: &[Id]) -> Result<Option<Partials>, NoDerivative> {
     let live = g.reachable(&[root]);
     let active = active(g, &live, leaves);
-    let mut adjoints: Vec<Option<Id>> = vec![None; live.len()];
-    adjoints[root.index()] = Some(g.real(1.0));
-    let ids: Vec<Id> = g.ids().take(live.len()).collect();
-    for id in ids.into_iter().rev() {
-        if !active[id.index()] {
-            continue;
+    let moving = |id: &Id| active[id.index()];
+    let ids: Vec<Id> = g.ids().take(live.len()).filter(moving).collect();
+    let choices: Vec<Id> = ids
+        .iter()
+        .copied()
+        .filter(|&id| is_choice(g.node(id).op))
+        .collect();
+    if ids.iter().any(|&id| g.ty(id) == Ty::Complex) || choices.len() > MAX_CHOICES {
+        return Ok(None);
+    }
+    let mut sweep = Sweep {
+        leaves,
+        active: &active,
+        known: Vec::new(),
+    };
+    for choice in choices {
+        let partials = sweep.choice(g, choice)?;
+        sweep.known.push((choice, partials));
+    }
+    sweep.partials(g, root).map(Some)
+}
+
+struct Sweep<'a> {
+    leaves: &'a [Id],
+    active: &'a [bool],
+    /// Choices below, in order, with their gradients.
+    known: Vec<(Id, Partials)>,
+}
+
+impl Sweep<'_> {
+    /// The gradient of a choice from those of its branches.
+    fn choice(&self, g: &mut Graph, choice: Id) -> Result<Partials, NoDerivative> {
+        let node = g.node(choice).clone();
+        let (condition, yes, no) = match (node.op, node.args.as_slice()) {
+            (Op::Apply(prim @ (Prim::Min | Prim::Max)), &[a, b]) => {
+                (takes_second(g, prim, a, b), b, a)
+            }
+            (_, &[condition, yes, no]) => (condition, yes, no),
+            _ => return Ok(vec![None; self.leaves.len()]),
+        };
+        let (yes, no) = (self.partials(g, yes)?, self.partials(g, no)?);
+        let zero = g.real(0.0);
+        let mut select = |yes: Option<Id>, no: Option<Id>| {
+            (yes.is_some() || no.is_some()).then(|| {
+                g.apply(
+                    Prim::Select,
+                    &[condition, yes.unwrap_or(zero), no.unwrap_or(zero)],
+                )
+            })
+        };
+        Ok(yes
+            .into_iter()
+            .zip(no)
+            .map(|(yes, no)| select(yes, no))
+            .collect())
+    }
+
+    /// The gradient of a node, by adjoints down to the leaves and to the choices below it.
+    fn partials(&self, g: &mut Graph, root: Id) -> Result<Partials, NoDerivative> {
+        if let Some((_, partials)) = self.known.iter().find(|(id, _)| *id == root) {
+            return Ok(partials.clone());
         }
-        let node = g.node(id).clone();
-        if node.ty == Ty::Complex {
-            return Ok(None);
+        let live = g.reachable(&[root]);
+        let mut adjoints: Vec<Option<Id>> = vec![None; root.index() + 1];
+        if self.active.get(root.index()) == Some(&true) {
+            adjoints[root.index()] = Some(g.real(1.0));
         }
-        let (Op::Apply(prim), Some(adjoint)) = (node.op, adjoints[id.index()]) else { continue };
-        for (k, &arg) in node.args.iter().enumerate() {
-            if !active[arg.index()] || g.ty(arg) == Ty::Bool {
+        let ids: Vec<Id> = g.ids().take(root.index() + 1).collect();
+        for id in ids.into_iter().rev() {
+            let (true, Some(adjoint)) = (live[id.index()], adjoints[id.index()]) else {
+                continue;
+            };
+            let node = g.node(id).clone();
+            let Op::Apply(prim) = node.op else { continue };
+            if is_choice(node.op) {
                 continue;
             }
-            let Some(term) = contribution(g, prim, &node.args, id, k, adjoint)? else { continue };
-            adjoints[arg.index()] = Some(match adjoints[arg.index()] {
-                Some(sum) => g.add(sum, term),
-                None => term,
-            });
+            for (k, &arg) in node.args.iter().enumerate() {
+                if !self.active[arg.index()] || g.ty(arg) == Ty::Bool {
+                    continue;
+                }
+                let term = contribution(g, prim, &node.args, id, k, adjoint)?;
+                adjoints[arg.index()] = sum(g, adjoints[arg.index()], term);
+            }
         }
+        let adjoint = |id: Id| adjoints.get(id.index()).copied().flatten();
+        let mut partials: Partials = self.leaves.iter().map(|&l| adjoint(l)).collect();
+        for (choice, slopes) in &self.known {
+            let Some(adjoint) = adjoint(*choice) else {
+                continue;
+            };
+            for (partial, slope) in partials.iter_mut().zip(slopes) {
+                let term = slope.map(|slope| g.mul(slope, adjoint));
+                *partial = sum(g, *partial, term);
+            }
+        }
+        Ok(partials)
     }
-    Ok(Some(leaves.iter().map(|l| adjoints[l.index()]).collect()))
+}
+
+fn is_choice(op: Op) -> bool {
+    matches!(op, Op::Apply(Prim::Select | Prim::Min | Prim::Max))
 }
 
 /// Marks the live nodes that depend on a leaf.
@@ -98,17 +181,6 @@ fn contribution(
         (_, Prim::Abs, &[x]) => {
             let sign = g.apply(Prim::Sign, &[x]);
             Some(g.mul(sign, adjoint))
-        }
-        (_, Prim::Min | Prim::Max, &[a, b]) => {
-            let second = takes_second(g, prim, a, b);
-            let zero = g.real(0.0);
-            let (yes, no) = if k == 1 { (adjoint, zero) } else { (zero, adjoint) };
-            Some(g.apply(Prim::Select, &[second, yes, no]))
-        }
-        (_, Prim::Select, &[c, ..]) => {
-            let zero = g.real(0.0);
-            let (yes, no) = if k == 1 { (adjoint, zero) } else { (zero, adjoint) };
-            Some(g.apply(Prim::Select, &[c, yes, no]))
         }
         // of a real: itself; im and arg of a real are locally constant
         (_, Prim::Re | Prim::Conj, _) => Some(adjoint),

@@ -17,7 +17,11 @@ pub fn nonzero_modulus(g: &mut Graph, modulus: Id) -> Id {
 
 /// A zero of the type of `like`.
 pub fn zero_like(g: &mut Graph, like: Ty) -> Id {
-    if like == Ty::Complex { g.complex(0.0, 0.0) } else { g.real(0.0) }
+    if like == Ty::Complex {
+        g.complex(0.0, 0.0)
+    } else {
+        g.real(0.0)
+    }
 }
 
 /// The condition under which `min` or `max` takes its second operand.
@@ -26,5 +30,13 @@ pub fn takes_second(g: &mut Graph, prim: Prim, a: Id, b: Id) -> Id {
         g.apply(Prim::Less, &[b, a])
     } else {
         g.apply(Prim::Less, &[a, b])
+    }
+}
+
+/// a + b, either of which may be an exact zero.
+pub fn sum(g: &mut Graph, a: Option<Id>, b: Option<Id>) -> Option<Id> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(g.add(a, b)),
+        _ => a.or(b),
     }
 }

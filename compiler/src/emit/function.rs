@@ -37,17 +37,21 @@ pub fn standalone(
     let mut linker = Linker::new(vec![math_module()]);
     let types = NagaTypes::insert(&mut linker.out.types);
     let arguments = arguments(program, formula, &evaluation, types);
+    let [value, gradient, derivative] = function_names(&formula.name);
     let name = match what {
-        What::Value => formula.name.clone(),
-        What::Gradient => format!("{}_gradient", formula.name),
-        What::Derivative => format!("{}_derivative", formula.name),
+        What::Value => value,
+        What::Gradient => gradient,
+        What::Derivative => derivative,
     };
     let (output, result, returns) = result(formula, what, &evaluation, types, &mut linker, &name);
     let interface = Interface {
         declaration: Function {
             name: Some(name.clone()),
             arguments: arguments.list,
-            result: Some(FunctionResult { ty: result, binding: None }),
+            result: Some(FunctionResult {
+                ty: result,
+                binding: None,
+            }),
             ..Function::default()
         },
         inputs: arguments.inputs,
@@ -63,8 +67,26 @@ pub fn standalone(
     }
     naga::compact::compact(&mut module, naga::compact::KeepUnused::Yes);
     let info = crate::module::validate(&module)?;
-    let header = format!("{name}({}) returns {returns}", arguments.described.join(", "));
+    let header = format!(
+        "{name}({}) returns {returns}",
+        arguments.described.join(", ")
+    );
     Ok((module, info, header))
+}
+
+/// Names of the functions for value, gradient and derivative.
+fn function_names(formula: &str) -> [String; 3] {
+    [
+        formula.to_owned(),
+        format!("{formula}_gradient"),
+        format!("{formula}_derivative"),
+    ]
+}
+
+/// Names of every function that is generated from a formula of this name, by itself or in a scene.
+pub fn generated_names(formula: &str) -> Vec<String> {
+    let demands = crate::module::DEMANDS.iter().map(|d| (*d).to_owned());
+    function_names(formula).into_iter().chain(demands).collect()
 }
 
 fn arguments(
@@ -76,11 +98,19 @@ fn arguments(
     let mut out = Arguments {
         list: Vec::new(),
         inputs: Vec::new(),
-        leaves: Leaves::Arguments { params: 0, time: 0, pixel: 0 },
+        leaves: Leaves::Arguments {
+            params: 0,
+            time: 0,
+            pixel: 0,
+        },
         described: Vec::new(),
     };
     let mut add = |name: &str, ty: Handle<Type>, described: String, list: &mut Vec<_>| {
-        list.push(FunctionArgument { name: Some(name.to_owned()), ty, binding: None });
+        list.push(FunctionArgument {
+            name: Some(name.to_owned()),
+            ty,
+            binding: None,
+        });
         out.described.push(described);
         u32::try_from(list.len() - 1).unwrap_or(u32::MAX)
     };
@@ -111,22 +141,39 @@ fn arguments(
             .any(|(id, node)| live[id.index()] && node.op == op)
     };
     let params = u32::try_from(out.list.len()).unwrap_or(u32::MAX);
-    let any_param = (0..program.params().len())
-        .any(|k| uses(Op::Param(u16::try_from(k).unwrap_or(u16::MAX))));
+    let any_param =
+        (0..program.params().len()).any(|k| uses(Op::Param(u16::try_from(k).unwrap_or(u16::MAX))));
     if any_param {
         for param in program.params() {
-            let described = format!("{}: real, {} in {}..{}", param.name, param.default, param.lo, param.hi);
+            let described = format!(
+                "{}: real, {} in {}..{}",
+                param.name, param.default, param.lo, param.hi
+            );
             add(&param.name, types.real, described, &mut out.list);
         }
     }
     let (mut time, mut pixel) = (0, 0);
     if uses(Op::Time) {
-        time = add("time", types.real, "time: seconds".to_owned(), &mut out.list);
+        time = add(
+            "time",
+            types.real,
+            "time: seconds".to_owned(),
+            &mut out.list,
+        );
     }
     if uses(Op::Pixel) {
-        pixel = add("pixel", types.real, "pixel: world units per pixel".to_owned(), &mut out.list);
+        pixel = add(
+            "pixel",
+            types.real,
+            "pixel: world units per pixel".to_owned(),
+            &mut out.list,
+        );
     }
-    out.leaves = Leaves::Arguments { params, time, pixel };
+    out.leaves = Leaves::Arguments {
+        params,
+        time,
+        pixel,
+    };
     out
 }
 
@@ -148,9 +195,11 @@ fn result(
     let nodes: Vec<Output> = (0..evaluation.roots.len()).map(Output::Node).collect();
     match (what, formula.ty) {
         (What::Value, LanguageType::Real) => (Output::Node(0), types.real, "the value".into()),
-        (What::Value, LanguageType::Complex) => {
-            (Output::Node(0), types.vec2, "the value (real and imaginary part)".into())
-        }
+        (What::Value, LanguageType::Complex) => (
+            Output::Node(0),
+            types.vec2,
+            "the value (real and imaginary part)".into(),
+        ),
         (What::Value, LanguageType::Bool) => (Output::Node(0), types.truth, "the value".into()),
         (What::Value, LanguageType::Vector(n)) => {
             let ty = vector(usize::from(n)).unwrap_or(types.vec4);
@@ -162,13 +211,21 @@ fn result(
             let ty = vector(parts.len()).unwrap_or(types.vec4);
             let mut names = evaluation.names.clone();
             names.rotate_left(1);
-            (Output::Compose(ty, parts), ty, format!("({})", names.join(", ")))
+            (
+                Output::Compose(ty, parts),
+                ty,
+                format!("({})", names.join(", ")),
+            )
         }
         _ => {
             let members = member_names(formula, what, evaluation);
             let ty = structure(evaluation, types, linker, name, &members);
             let described = evaluation.names.join(", ");
-            (Output::Compose(ty, nodes), ty, format!("a structure of {described}"))
+            (
+                Output::Compose(ty, nodes),
+                ty,
+                format!("a structure of {described}"),
+            )
         }
     }
 }
@@ -204,33 +261,60 @@ fn structure(
             crate::ir::Ty::Bool => (types.truth, 4),
         };
         offset = offset.next_multiple_of(size);
-        out.push(StructMember { name: Some(member.clone()), ty, binding: None, offset });
+        out.push(StructMember {
+            name: Some(member.clone()),
+            ty,
+            binding: None,
+            offset,
+        });
         offset += size;
     }
     let title: String = name
         .split('_')
         .map(|word| {
             let mut letters = word.chars();
-            letters.next().map_or(String::new(), |c| c.to_uppercase().chain(letters).collect())
+            letters
+                .next()
+                .map_or(String::new(), |c| c.to_uppercase().chain(letters).collect())
         })
         .collect();
     let span = offset.next_multiple_of(8);
     let inner = TypeInner::Struct { members: out, span };
-    linker.insert_type(Type { name: Some(title), inner })
+    linker.insert_type(Type {
+        name: Some(title),
+        inner,
+    })
 }
 
 /// GLSL has no module without an entry point: one that calls the function with zeros.
 fn add_main(module: &mut Module, function: Handle<Function>) {
-    let mut main = Function { name: Some("main".into()), ..Function::default() };
-    let tys: Vec<_> = module.functions[function].arguments.iter().map(|a| a.ty).collect();
+    let mut main = Function {
+        name: Some("main".into()),
+        ..Function::default()
+    };
+    let tys: Vec<_> = module.functions[function]
+        .arguments
+        .iter()
+        .map(|a| a.ty)
+        .collect();
     let arguments = tys
         .into_iter()
-        .map(|ty| main.expressions.append(Expression::ZeroValue(ty), Span::UNDEFINED))
+        .map(|ty| {
+            main.expressions
+                .append(Expression::ZeroValue(ty), Span::UNDEFINED)
+        })
         .collect();
-    let result = main.expressions.append(Expression::CallResult(function), Span::UNDEFINED);
-    let call = Statement::Call { function, arguments, result: Some(result) };
+    let result = main
+        .expressions
+        .append(Expression::CallResult(function), Span::UNDEFINED);
+    let call = Statement::Call {
+        function,
+        arguments,
+        result: Some(result),
+    };
     main.body.push(call, Span::UNDEFINED);
-    main.body.push(Statement::Return { value: None }, Span::UNDEFINED);
+    main.body
+        .push(Statement::Return { value: None }, Span::UNDEFINED);
     module.entry_points.push(EntryPoint {
         name: "main".into(),
         stage: ShaderStage::Fragment,

@@ -1,6 +1,7 @@
 //! Formulas and scenes as text of shading languages.
 
 mod function;
+mod names;
 mod text;
 
 pub use text::{Target, write};
@@ -30,7 +31,11 @@ impl Program {
             vec![Diagnostic::error(
                 "no-picture",
                 pullback_grammar::Span::default(),
-                format!("there are {} pictures, not {}", self.pictures().len(), index + 1),
+                format!(
+                    "there are {} pictures, not {}",
+                    self.pictures().len(),
+                    index + 1
+                ),
             )]
         })
     }
@@ -89,10 +94,14 @@ impl Program {
         precision: Precision,
     ) -> Result<Vec<u8>, Vec<Diagnostic>> {
         self.with_picture(picture, |p| {
-            let (module, info, header) = match what {
+            let (mut module, info, header) = match what {
                 EmitWhat::Scene => {
                     let scene = SceneModule::new(p, precision)?;
-                    (scene.module, scene.info, format!("the scene `{}`", p.scene.name))
+                    (
+                        scene.module,
+                        scene.info,
+                        format!("the scene `{}`", p.scene.name),
+                    )
                 }
                 EmitWhat::Value => function::standalone(self, p, What::Value, precision, target)?,
                 EmitWhat::Gradient => {
@@ -102,6 +111,7 @@ impl Program {
                     function::standalone(self, p, What::Derivative, precision, target)?
                 }
             };
+            names::keep_names(&mut module, &function::generated_names(&p.formula.name));
             write(&module, &info, target, &header).map_err(ModuleError::Invalid)
         })
     }

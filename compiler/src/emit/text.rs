@@ -62,8 +62,10 @@ pub fn write(
 }
 
 fn write_glsl(module: &Module, info: &ModuleInfo) -> Result<String, String> {
-    let options =
-        glsl::Options { version: glsl::Version::Desktop(450), ..glsl::Options::default() };
+    let options = glsl::Options {
+        version: glsl::Version::Desktop(450),
+        ..glsl::Options::default()
+    };
     let entry = module
         .entry_points
         .iter()
@@ -92,14 +94,20 @@ fn write_hlsl(module: &Module, info: &ModuleInfo) -> Result<String, String> {
 }
 
 fn write_msl(module: &Module, info: &ModuleInfo) -> Result<String, String> {
-    let options = msl::Options { lang_version: (2, 0), ..msl::Options::default() };
+    let options = msl::Options {
+        lang_version: (2, 0),
+        ..msl::Options::default()
+    };
     msl::write_string(module, info, &options, &msl::PipelineOptions::default())
         .map(|(text, _)| text)
         .map_err(|e| e.to_string())
 }
 
 fn write_spirv(module: &Module, info: &ModuleInfo) -> Result<Vec<u8>, String> {
-    let options = spv::Options { lang_version: (1, 3), ..spv::Options::default() };
+    let options = spv::Options {
+        lang_version: (1, 3),
+        ..spv::Options::default()
+    };
     let words = spv::write_vec(module, info, &options, None).map_err(|e| e.to_string())?;
     Ok(words.into_iter().flat_map(u32::to_le_bytes).collect())
 }

@@ -23,8 +23,8 @@ pub fn cost(graph: &Graph, roots: &[Id]) -> Cost {
         if !live[id.index()] {
             continue;
         }
-        let complex = node.ty == Ty::Complex
-            || node.args.iter().any(|&a| graph.ty(a) == Ty::Complex);
+        let complex =
+            node.ty == Ty::Complex || node.args.iter().any(|&a| graph.ty(a) == Ty::Complex);
         let row = table::row(prim);
         let weight = match table::pair(prim) {
             // the second of a pair that is computed together

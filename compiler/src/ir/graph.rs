@@ -79,20 +79,32 @@ impl Graph {
     /// # Errors
     /// [`OverBudget`] where a node was refused.
     pub fn budget(&self) -> Result<(), OverBudget> {
-        if self.over_budget { Err(OverBudget) } else { Ok(()) }
+        if self.over_budget {
+            Err(OverBudget)
+        } else {
+            Ok(())
+        }
     }
 
     /// Adds a node as it is, without simplification, or finds the one that is equal to it. Sums and products
     /// are found in either order of their operands (both are commutative in IEEE 754 arithmetic).
     pub(crate) fn intern(&mut self, op: Op, ty: Ty, args: &[Id]) -> Id {
-        let node = Node { op, ty, args: SmallVec::from_slice(args) };
+        let node = Node {
+            op,
+            ty,
+            args: SmallVec::from_slice(args),
+        };
         if let Some(&id) = self.ids.get(&node) {
             return id;
         }
         if let (Op::Apply(prim), &[a, b]) = (op, args)
             && prim.is_commutative()
         {
-            let swapped = Node { op, ty, args: SmallVec::from_slice(&[b, a]) };
+            let swapped = Node {
+                op,
+                ty,
+                args: SmallVec::from_slice(&[b, a]),
+            };
             if let Some(&id) = self.ids.get(&swapped) {
                 return id;
             }
@@ -196,8 +208,7 @@ impl Graph {
             if !live[id.index()] {
                 continue;
             }
-            let args: SmallVec<[Id; 3]> =
-                node.args.iter().filter_map(|a| map[a.index()]).collect();
+            let args: SmallVec<[Id; 3]> = node.args.iter().filter_map(|a| map[a.index()]).collect();
             let new = out.intern(node.op, node.ty, &args);
             if let Some(name) = self.name(id) {
                 out.set_name(new, name);

@@ -32,7 +32,10 @@ pub enum Op {
 
 /// Primitives: the operations that every evaluator implements. Each is one row of the operator table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(missing_docs, reason = "the operator table documents each under its name")]
+#[allow(
+    missing_docs,
+    reason = "the operator table documents each under its name"
+)]
 pub enum Prim {
     Neg,
     Add,

@@ -18,7 +18,11 @@ pub fn expand_powers(graph: &Graph, roots: &[Id]) -> (Graph, Vec<Id>) {
         if !live[id.index()] {
             continue;
         }
-        let args: Vec<Id> = node.args.iter().filter_map(|a: &Id| map[a.index()]).collect();
+        let args: Vec<Id> = node
+            .args
+            .iter()
+            .filter_map(|a: &Id| map[a.index()])
+            .collect();
         let new = match (node.op, args.as_slice()) {
             (Op::Apply(Prim::PowInt(n)), &[base]) if n.unsigned_abs() <= MAX_EXPANDED => {
                 power(&mut out, node.ty, base, n)
@@ -45,7 +49,11 @@ fn power(g: &mut Graph, ty: Ty, base: Id, n: i32) -> Id {
 
 fn positive_power(g: &mut Graph, ty: Ty, base: Id, n: u32) -> Id {
     if n == 0 {
-        return if ty == Ty::Complex { g.complex(1.0, 0.0) } else { g.real(1.0) };
+        return if ty == Ty::Complex {
+            g.complex(1.0, 0.0)
+        } else {
+            g.real(1.0)
+        };
     }
     let mut value = base;
     for bit in (0..n.ilog2()).rev() {

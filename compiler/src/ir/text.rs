@@ -67,7 +67,10 @@ pub fn parse_text(text: &str) -> Result<(Graph, Vec<Id>), ParseError> {
     let mut ids: FxHashMap<&str, Id> = FxHashMap::default();
     let mut roots = Vec::new();
     for (number, line) in text.lines().enumerate() {
-        let fail = |expected| ParseError { line: number + 1, expected };
+        let fail = |expected| ParseError {
+            line: number + 1,
+            expected,
+        };
         let line = line.split(';').next().unwrap_or("").trim();
         if line.is_empty() {
             continue;

@@ -19,7 +19,10 @@ pub struct Invalid {
 pub fn verify(graph: &Graph) -> Result<(), Invalid> {
     for (id, node) in graph.ids().zip(graph.nodes()) {
         if node.args.iter().any(|&a| a >= id) {
-            return Err(Invalid { id, reason: "an operand does not precede its user" });
+            return Err(Invalid {
+                id,
+                reason: "an operand does not precede its user",
+            });
         }
         check(graph, node).map_err(|reason| Invalid { id, reason })?;
     }
@@ -43,5 +46,9 @@ fn check(graph: &Graph, node: &Node) -> Result<(), &'static str> {
     if !node.args.is_empty() {
         return Err("a leaf has operands");
     }
-    if leaf_ty == node.ty { Ok(()) } else { Err("a leaf has the wrong type") }
+    if leaf_ty == node.ty {
+        Ok(())
+    } else {
+        Err("a leaf has the wrong type")
+    }
 }

@@ -30,30 +30,53 @@ impl Importer {
         }
         let ty = &from.types[handle];
         let inner = match &ty.inner {
-            TypeInner::Pointer { base, space } => {
-                TypeInner::Pointer { base: self.ty(from, to, *base)?, space: *space }
-            }
+            TypeInner::Pointer { base, space } => TypeInner::Pointer {
+                base: self.ty(from, to, *base)?,
+                space: *space,
+            },
             TypeInner::Array { base, size, stride } => {
                 if matches!(size, ArraySize::Pending(_)) {
                     return Err(LinkError::Unsupported("an array whose size is an override"));
                 }
-                TypeInner::Array { base: self.ty(from, to, *base)?, size: *size, stride: *stride }
+                TypeInner::Array {
+                    base: self.ty(from, to, *base)?,
+                    size: *size,
+                    stride: *stride,
+                }
             }
             TypeInner::Struct { members, span } => {
                 let members = members
                     .iter()
-                    .map(|m| Ok(StructMember { ty: self.ty(from, to, m.ty)?, ..m.clone() }))
+                    .map(|m| {
+                        Ok(StructMember {
+                            ty: self.ty(from, to, m.ty)?,
+                            ..m.clone()
+                        })
+                    })
                     .collect::<Result<_, LinkError>>()?;
-                TypeInner::Struct { members, span: *span }
+                TypeInner::Struct {
+                    members,
+                    span: *span,
+                }
             }
             inner @ (TypeInner::Scalar(_)
             | TypeInner::Vector { .. }
             | TypeInner::Matrix { .. }
             | TypeInner::Atomic(_)
             | TypeInner::ValuePointer { .. }) => inner.clone(),
-            _ => return Err(LinkError::Unsupported("a type other than numbers and aggregates")),
+            _ => {
+                return Err(LinkError::Unsupported(
+                    "a type other than numbers and aggregates",
+                ));
+            }
         };
-        let copy = to.types.insert(Type { name: ty.name.clone(), inner }, Span::UNDEFINED);
+        let copy = to.types.insert(
+            Type {
+                name: ty.name.clone(),
+                inner,
+            },
+            Span::UNDEFINED,
+        );
         self.types.insert(handle, copy);
         Ok(copy)
     }
@@ -73,9 +96,16 @@ impl Importer {
             return Err(LinkError::Unsupported("a global variable with a value"));
         }
         variable.ty = self.ty(from, to, variable.ty)?;
-        let known = to.global_variables.iter().find(|(_, g)| g.name == variable.name);
+        let known = to
+            .global_variables
+            .iter()
+            .find(|(_, g)| g.name == variable.name);
         let copy = match known {
-            Some((known, other)) if other.ty == variable.ty && other.binding == variable.binding => known,
+            Some((known, other))
+                if other.ty == variable.ty && other.binding == variable.binding =>
+            {
+                known
+            }
             Some(_) => {
                 return Err(LinkError::Signature(variable.name.unwrap_or_default()));
             }
@@ -97,9 +127,14 @@ impl Importer {
         let constant = &from.constants[handle];
         let ty = self.ty(from, to, constant.ty)?;
         let init = self.global_expression(from, to, constant.init)?;
-        let copy = to
-            .constants
-            .append(Constant { name: constant.name.clone(), ty, init }, Span::UNDEFINED);
+        let copy = to.constants.append(
+            Constant {
+                name: constant.name.clone(),
+                ty,
+                init,
+            },
+            Span::UNDEFINED,
+        );
         self.constants.insert(handle, copy);
         Ok(copy)
     }
@@ -122,9 +157,10 @@ impl Importer {
                     .collect::<Result<_, _>>()?;
                 Expression::Compose { ty, components }
             }
-            Expression::Splat { size, value } => {
-                Expression::Splat { size: *size, value: self.global_expression(from, to, *value)? }
-            }
+            Expression::Splat { size, value } => Expression::Splat {
+                size: *size,
+                value: self.global_expression(from, to, *value)?,
+            },
             Expression::Constant(c) => Expression::Constant(self.constant(from, to, *c)?),
             Expression::ZeroValue(ty) => Expression::ZeroValue(self.ty(from, to, *ty)?),
             literal @ Expression::Literal(_) => literal.clone(),
@@ -205,9 +241,13 @@ fn redirect(block: &mut Block, callees: &FxHashMap<Handle<Function>, Handle<Func
                 redirect(reject, callees);
             }
             Statement::Switch { cases, .. } => {
-                cases.iter_mut().for_each(|c| redirect(&mut c.body, callees));
+                cases
+                    .iter_mut()
+                    .for_each(|c| redirect(&mut c.body, callees));
             }
-            Statement::Loop { body, continuing, .. } => {
+            Statement::Loop {
+                body, continuing, ..
+            } => {
                 redirect(body, callees);
                 redirect(continuing, callees);
             }

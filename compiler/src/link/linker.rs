@@ -63,7 +63,9 @@ impl<'a> Linker<'a> {
         let mut by_name: FxHashMap<&str, Place> = FxHashMap::default();
         for (source, module) in sources.iter().enumerate() {
             for (function, body) in module.functions.iter() {
-                let Some(name) = body.name.as_deref() else { continue };
+                let Some(name) = body.name.as_deref() else {
+                    continue;
+                };
                 let place = Place { source, function };
                 match by_name.get(name) {
                     Some(known) if !is_stub(&sources[known.source].functions[known.function]) => {}
@@ -124,7 +126,9 @@ impl<'a> Linker<'a> {
         let body = self.sources[place.source].functions[place.function].clone();
         let declared = self.signature(place.source, &body)?;
         let generated = if is_stub(&body) {
-            provider.provide(name, &declared, self).map_err(LinkError::Lower)?
+            provider
+                .provide(name, &declared, self)
+                .map_err(LinkError::Lower)?
         } else {
             None
         };
@@ -150,7 +154,10 @@ impl<'a> Linker<'a> {
     pub fn global(&mut self, name: &str) -> Result<Handle<naga::GlobalVariable>, LinkError> {
         for source in 0..self.sources.len() {
             let module = self.sources[source];
-            let found = module.global_variables.iter().find(|(_, g)| g.name.as_deref() == Some(name));
+            let found = module
+                .global_variables
+                .iter()
+                .find(|(_, g)| g.name.as_deref() == Some(name));
             if let Some((handle, _)) = found {
                 return self.importers[source].global(module, &mut self.out, handle);
             }
@@ -160,7 +167,10 @@ impl<'a> Linker<'a> {
 
     /// The arguments and the result of a function, with types of the module that is being built.
     fn signature(&mut self, source: usize, body: &Function) -> Result<Function, LinkError> {
-        let mut out = Function { name: body.name.clone(), ..Function::default() };
+        let mut out = Function {
+            name: body.name.clone(),
+            ..Function::default()
+        };
         let module = self.sources[source];
         for argument in &body.arguments {
             let mut argument = argument.clone();
@@ -169,7 +179,10 @@ impl<'a> Linker<'a> {
         }
         if let Some(result) = &body.result {
             let ty = self.importers[source].ty(module, &mut self.out, result.ty)?;
-            out.result = Some(FunctionResult { ty, binding: result.binding.clone() });
+            out.result = Some(FunctionResult {
+                ty,
+                binding: result.binding.clone(),
+            });
         }
         Ok(out)
     }
@@ -209,7 +222,10 @@ impl<'a> Linker<'a> {
 
 fn same_signature(a: &Function, b: &Function) -> bool {
     a.arguments.len() == b.arguments.len()
-        && a.arguments.iter().zip(&b.arguments).all(|(x, y)| x.ty == y.ty)
+        && a.arguments
+            .iter()
+            .zip(&b.arguments)
+            .all(|(x, y)| x.ty == y.ty)
         && a.result.as_ref().map(|r| r.ty) == b.result.as_ref().map(|r| r.ty)
 }
 
@@ -220,7 +236,9 @@ pub fn is_stub(function: &Function) -> bool {
     for statement in &function.body {
         match statement {
             Statement::Emit(_) => {}
-            Statement::Return { value: Some(returned) } => value = Some(*returned),
+            Statement::Return {
+                value: Some(returned),
+            } => value = Some(*returned),
             _ => return false,
         }
     }
@@ -256,7 +274,9 @@ fn calls(block: &naga::Block) -> Vec<Handle<Function>> {
                 Statement::Block(inner) => stack.push(inner),
                 Statement::If { accept, reject, .. } => stack.extend([accept, reject]),
                 Statement::Switch { cases, .. } => stack.extend(cases.iter().map(|c| &c.body)),
-                Statement::Loop { body, continuing, .. } => stack.extend([body, continuing]),
+                Statement::Loop {
+                    body, continuing, ..
+                } => stack.extend([body, continuing]),
                 _ => {}
             }
         }

@@ -72,7 +72,11 @@ impl Sources {
     /// All of them.
     #[must_use]
     pub fn get() -> Self {
-        Self { entry: entry_module(), shared: shared_module(), math: math_module() }
+        Self {
+            entry: entry_module(),
+            shared: shared_module(),
+            math: math_module(),
+        }
     }
 }
 #[cfg(test)]

@@ -17,7 +17,11 @@ impl Body {
     /// Begins the body of a function.
     #[must_use]
     pub fn new(function: Function) -> Self {
-        Self { function, emitter: Emitter::default(), literals: FxHashMap::default() }
+        Self {
+            function,
+            emitter: Emitter::default(),
+            literals: FxHashMap::default(),
+        }
     }
 
     /// Adds an expression that is computed here.
@@ -25,13 +29,17 @@ impl Body {
         if !self.emitter.is_running() {
             self.emitter.start(&self.function.expressions);
         }
-        self.function.expressions.append(expression, Span::UNDEFINED)
+        self.function
+            .expressions
+            .append(expression, Span::UNDEFINED)
     }
 
     /// Adds an expression that must not be emitted: an argument, a literal, a variable.
     pub fn declare(&mut self, expression: Expression) -> Handle<Expression> {
         self.flush();
-        self.function.expressions.append(expression, Span::UNDEFINED)
+        self.function
+            .expressions
+            .append(expression, Span::UNDEFINED)
     }
 
     /// A finite literal, each value once.
@@ -51,7 +59,11 @@ impl Body {
         arguments: Vec<Handle<Expression>>,
     ) -> Handle<Expression> {
         let result = self.declare(Expression::CallResult(function));
-        self.push(Statement::Call { function, arguments, result: Some(result) });
+        self.push(Statement::Call {
+            function,
+            arguments,
+            result: Some(result),
+        });
         result
     }
 

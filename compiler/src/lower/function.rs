@@ -143,7 +143,8 @@ impl Lowering<'_, '_, '_> {
     /// Literals and arguments first, so that they do not cut the emitted ranges apart.
     fn declare_leaves(&mut self) {
         for k in 0..self.body.function.arguments.len() {
-            self.body.declare(Expression::FunctionArgument(u32::try_from(k).unwrap_or(0)));
+            self.body
+                .declare(Expression::FunctionArgument(u32::try_from(k).unwrap_or(0)));
         }
         for (id, node) in self.graph.ids().zip(self.graph.nodes()) {
             if let Op::Const(bits) = node.op
@@ -173,9 +174,16 @@ impl Lowering<'_, '_, '_> {
         if !matches!(node.op, Op::Apply(_)) {
             return;
         }
-        let below = node.args.iter().map(|a| self.depths[a.index()]).max().unwrap_or(0);
+        let below = node
+            .args
+            .iter()
+            .map(|a| self.depths[a.index()])
+            .max()
+            .unwrap_or(0);
         self.depths[id.index()] = below + 1;
         let name = match self.graph.name(id) {
+            // the result of a function needs no name in the function itself
+            Some(name) if self.body.function.name.as_deref() == Some(name) => return,
             Some(name) => name.to_owned(),
             None if below + 1 >= MAX_UNNAMED_DEPTH => format!("t{}", id.index()),
             None => return,
@@ -191,13 +199,17 @@ impl Lowering<'_, '_, '_> {
     fn argument(&self, k: u32) -> Result<Handle<Expression>, LowerError> {
         // arguments are the first expressions of the body
         let found = self.body.function.expressions.iter().nth(k as usize);
-        found.map(|(handle, _)| handle).ok_or(LowerError::NoForm("an argument"))
+        found
+            .map(|(handle, _)| handle)
+            .ok_or(LowerError::NoForm("an argument"))
     }
 
     fn node(&mut self, node: &Node) -> Result<Handle<Expression>, LowerError> {
         match node.op {
             Op::Const(bits) => self.special(f64::from_bits(bits)),
-            Op::Truth(value) => Ok(self.body.declare(Expression::Literal(naga::Literal::Bool(value)))),
+            Op::Truth(value) => Ok(self
+                .body
+                .declare(Expression::Literal(naga::Literal::Bool(value)))),
             Op::Input(k) => self.input(k),
             Op::Param(k) => self.param(k),
             Op::Time => self.clock("time"),
@@ -210,10 +222,14 @@ impl Lowering<'_, '_, '_> {
     fn special(&mut self, value: f64) -> Result<Handle<Expression>, LowerError> {
         let seed = self.body.literal(0.0);
         if value.is_nan() {
-            return self.library("real_nan", vec![seed]);
+            return self.library("make_nan", vec![seed]);
         }
-        let infinity = self.library("real_infinity", vec![seed])?;
-        Ok(if value > 0.0 { infinity } else { self.unary(naga::UnaryOperator::Negate, infinity) })
+        let infinity = self.library("make_infinity", vec![seed])?;
+        Ok(if value > 0.0 {
+            infinity
+        } else {
+            self.unary(naga::UnaryOperator::Negate, infinity)
+        })
     }
 
     fn input(&mut self, k: u16) -> Result<Handle<Expression>, LowerError> {
@@ -238,12 +254,14 @@ impl Lowering<'_, '_, '_> {
             Leaves::Arguments { params, .. } => self.argument(params + u32::from(k)),
             Leaves::Uniforms { params, .. } => {
                 let base = self.body.declare(Expression::GlobalVariable(params));
-                let base = self
-                    .body
-                    .emit(Expression::AccessIndex { base, index: u32::from(k / 4) });
-                let pointer = self
-                    .body
-                    .emit(Expression::AccessIndex { base, index: u32::from(k % 4) });
+                let base = self.body.emit(Expression::AccessIndex {
+                    base,
+                    index: u32::from(k / 4),
+                });
+                let pointer = self.body.emit(Expression::AccessIndex {
+                    base,
+                    index: u32::from(k % 4),
+                });
                 Ok(self.body.emit(Expression::Load { pointer }))
             }
         }
@@ -259,7 +277,9 @@ impl Lowering<'_, '_, '_> {
                 let TypeInner::Struct { members, .. } = &self.linker.out.types[ty].inner else {
                     return Err(LowerError::NoForm("the clock"));
                 };
-                let found = members.iter().position(|m| m.name.as_deref() == Some(member));
+                let found = members
+                    .iter()
+                    .position(|m| m.name.as_deref() == Some(member));
                 let index = found.and_then(|i| u32::try_from(i).ok());
                 let index = index.ok_or(LowerError::NoForm("the clock"))?;
                 let base = self.body.declare(Expression::GlobalVariable(clock));
@@ -274,10 +294,13 @@ impl Lowering<'_, '_, '_> {
         name: &str,
         arguments: Vec<Handle<Expression>>,
     ) -> Result<Handle<Expression>, LowerError> {
-        let function = self.linker.function(name, &mut LibraryOnly).map_err(|error| match error {
-            LinkError::Missing(_) => LowerError::NoForm(missing_form(name)),
-            error => error.into(),
-        })?;
+        let function =
+            self.linker
+                .function(name, &mut LibraryOnly)
+                .map_err(|error| match error {
+                    LinkError::Missing(_) => LowerError::NoForm(missing_form(name)),
+                    error => error.into(),
+                })?;
         Ok(self.body.call(function, arguments))
     }
 
@@ -304,7 +327,9 @@ impl Lowering<'_, '_, '_> {
             Gpu::Structural => match prim {
                 Prim::Select => Ok(self.select(&args)),
                 Prim::PowInt(n) => {
-                    let n = self.body.declare(Expression::Literal(naga::Literal::I32(n)));
+                    let n = self
+                        .body
+                        .declare(Expression::Literal(naga::Literal::I32(n)));
                     self.library("real_powi", vec![args[0], n])
                 }
                 _ => Err(LowerError::NoForm(table::row(prim).usage)),
@@ -319,7 +344,9 @@ impl Lowering<'_, '_, '_> {
         node: &Node,
         args: &[Handle<Expression>],
     ) -> Result<Option<Handle<Expression>>, LowerError> {
-        let Some(pair) = table::pair(prim) else { return Ok(None) };
+        let Some(pair) = table::pair(prim) else {
+            return Ok(None);
+        };
         let operand = node.args[0];
         let partner = self.graph.find_unary(pair.partner, operand);
         let complex = node.ty == Ty::Complex;
@@ -340,7 +367,10 @@ impl Lowering<'_, '_, '_> {
         if !complex {
             return Ok(Some(self.part(both, pair.place)));
         }
-        let (re, im) = (self.part(both, 2 * pair.place), self.part(both, 2 * pair.place + 1));
+        let (re, im) = (
+            self.part(both, 2 * pair.place),
+            self.part(both, 2 * pair.place + 1),
+        );
         Ok(Some(self.compose(vec![re, im])))
     }
 
@@ -350,8 +380,11 @@ impl Lowering<'_, '_, '_> {
         node: &Node,
         args: &[Handle<Expression>],
     ) -> Result<Handle<Expression>, LowerError> {
-        let is_complex: SmallVec<[bool; 3]> =
-            node.args.iter().map(|&a| self.graph.ty(a) == Ty::Complex).collect();
+        let is_complex: SmallVec<[bool; 3]> = node
+            .args
+            .iter()
+            .map(|&a| self.graph.ty(a) == Ty::Complex)
+            .collect();
         match (prim, args) {
             (Prim::Complex, &[re, im]) => Ok(self.compose(vec![re, im])),
             (Prim::Re, &[z]) => Ok(self.part(z, 0)),
@@ -371,7 +404,10 @@ impl Lowering<'_, '_, '_> {
                 Ok(self.binary(BinaryOperator::Multiply, a, b))
             }
             (Prim::Div, &[a, b]) if !is_complex[1] => {
-                let b = self.body.emit(Expression::Splat { size: VectorSize::Bi, value: b });
+                let b = self.body.emit(Expression::Splat {
+                    size: VectorSize::Bi,
+                    value: b,
+                });
                 Ok(self.binary(BinaryOperator::Divide, a, b))
             }
             (Prim::Div, &[a, b]) if !is_complex[0] => {
@@ -382,7 +418,9 @@ impl Lowering<'_, '_, '_> {
                 Ok(self.binary(BinaryOperator::Multiply, a, inverse))
             }
             (Prim::PowInt(n), &[z]) => {
-                let n = self.body.declare(Expression::Literal(naga::Literal::I32(n)));
+                let n = self
+                    .body
+                    .declare(Expression::Literal(naga::Literal::I32(n)));
                 self.library("complex_powi", vec![z, n])
             }
             _ => {
@@ -402,7 +440,11 @@ impl Lowering<'_, '_, '_> {
         (a, a_complex): (Handle<Expression>, bool),
         (b, b_complex): (Handle<Expression>, bool),
     ) -> Handle<Expression> {
-        let op = if prim == Prim::Add { BinaryOperator::Add } else { BinaryOperator::Subtract };
+        let op = if prim == Prim::Add {
+            BinaryOperator::Add
+        } else {
+            BinaryOperator::Subtract
+        };
         if a_complex && b_complex {
             return self.binary(op, a, b);
         }
@@ -412,8 +454,11 @@ impl Lowering<'_, '_, '_> {
         } else {
             let (re, im) = (self.part(b, 0), self.part(b, 1));
             let re = self.binary(op, a, re);
-            let im =
-                if prim == Prim::Add { im } else { self.unary(naga::UnaryOperator::Negate, im) };
+            let im = if prim == Prim::Add {
+                im
+            } else {
+                self.unary(naga::UnaryOperator::Negate, im)
+            };
             (re, im)
         };
         self.compose(vec![re, im])
@@ -442,7 +487,10 @@ impl Lowering<'_, '_, '_> {
     }
 
     fn compose(&mut self, components: Vec<Handle<Expression>>) -> Handle<Expression> {
-        self.body.emit(Expression::Compose { ty: self.types.vec2, components })
+        self.body.emit(Expression::Compose {
+            ty: self.types.vec2,
+            components,
+        })
     }
 
     fn unary(&mut self, op: naga::UnaryOperator, expr: Handle<Expression>) -> Handle<Expression> {
@@ -460,7 +508,13 @@ impl Lowering<'_, '_, '_> {
 
     fn math(&mut self, fun: MathFunction, args: &[Handle<Expression>]) -> Handle<Expression> {
         let (arg1, arg2) = (args.get(1).copied(), args.get(2).copied());
-        self.body.emit(Expression::Math { fun, arg: args[0], arg1, arg2, arg3: None })
+        self.body.emit(Expression::Math {
+            fun,
+            arg: args[0],
+            arg1,
+            arg2,
+            arg3: None,
+        })
     }
 
     fn select(&mut self, args: &[Handle<Expression>]) -> Handle<Expression> {
@@ -485,9 +539,14 @@ impl Lowering<'_, '_, '_> {
             }
             Output::Zero(ty) => self.body.declare(Expression::ZeroValue(*ty)),
             Output::Compose(ty, parts) => {
-                let components =
-                    parts.iter().map(|p| self.output(p, roots)).collect::<Result<_, _>>()?;
-                self.body.emit(Expression::Compose { ty: *ty, components })
+                let components = parts
+                    .iter()
+                    .map(|p| self.output(p, roots))
+                    .collect::<Result<_, _>>()?;
+                self.body.emit(Expression::Compose {
+                    ty: *ty,
+                    components,
+                })
             }
         })
     }
@@ -495,7 +554,10 @@ impl Lowering<'_, '_, '_> {
 
 /// The value as a finite `f32`, or `None` where it is NaN or beyond its range.
 fn finite(value: f64) -> Option<f32> {
-    #[allow(clippy::cast_possible_truncation, reason = "rounding to the shader's format is meant")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "rounding to the shader's format is meant"
+    )]
     let value = value as f32;
     value.is_finite().then_some(value)
 }
@@ -504,7 +566,8 @@ fn missing_form(name: &str) -> &'static str {
     table::rows()
         .iter()
         .find(|row| {
-            row.gpu_complex == name || matches!(row.gpu, Gpu::Library(library, _) if library == name)
+            row.gpu_complex == name
+                || matches!(row.gpu, Gpu::Library(library, _) if library == name)
         })
         .map_or("a library function", |row| row.usage)
 }

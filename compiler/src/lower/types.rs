@@ -23,7 +23,10 @@ impl NagaTypes {
     /// Finds or adds the types.
     pub fn insert(types: &mut UniqueArena<Type>) -> Self {
         let mut add = |inner| types.insert(Type { name: None, inner }, Span::UNDEFINED);
-        let vector = |size| TypeInner::Vector { size, scalar: Scalar::F32 };
+        let vector = |size| TypeInner::Vector {
+            size,
+            scalar: Scalar::F32,
+        };
         Self {
             real: add(TypeInner::Scalar(Scalar::F32)),
             vec2: add(vector(VectorSize::Bi)),

@@ -9,6 +9,9 @@ use crate::ir::{Graph, Id, Ty};
 use crate::link::{Linker, Provider};
 use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
 
+/// Names of the stubs that are filled from a formula.
+pub const DEMANDS: [&str; 5] = ["field", "field_grad", "field_ray", "map", "map_jet"];
+
 /// Fills the stubs of a scene from one formula.
 #[derive(Debug)]
 pub struct Demand<'f> {
@@ -71,24 +74,39 @@ impl Demand<'_> {
         if scalars == [Ty::Complex] {
             return vec![Argument::Whole(0)];
         }
-        (0..scalars.len()).map(|k| Argument::Component(0, u32::try_from(k).unwrap_or(0))).collect()
+        (0..scalars.len())
+            .map(|k| Argument::Component(0, u32::try_from(k).unwrap_or(0)))
+            .collect()
     }
 
     fn leaves(&self, graph: &mut Graph) -> Vec<Id> {
         let scalars = self.formula.scalars();
-        scalars.iter().enumerate().map(|(k, &ty)| Formula::leaf(graph, k, ty)).collect()
+        scalars
+            .iter()
+            .enumerate()
+            .map(|(k, &ty)| Formula::leaf(graph, k, ty))
+            .collect()
     }
 
     fn value(&self) -> Answer {
         let (graph, roots) = self.graph();
-        Answer { graph, roots, inputs: self.point_inputs(), output: Output::Node(0) }
+        Answer {
+            graph,
+            roots,
+            inputs: self.point_inputs(),
+            output: Output::Node(0),
+        }
     }
 
     /// All partial derivatives and the value; partials by coordinates that the formula does not take are zero.
     fn gradient(&self, stub: &Function) -> Result<Answer, LowerError> {
         let (mut graph, roots) = self.graph();
         let leaves = self.leaves(&mut graph);
-        let result = stub.result.as_ref().ok_or(LowerError::NoForm("a gradient"))?.ty;
+        let result = stub
+            .result
+            .as_ref()
+            .ok_or(LowerError::NoForm("a gradient"))?
+            .ty;
         let derived = gradient(&mut graph, roots[0], &leaves).map_err(LowerError::NoDerivative)?;
         let zero = graph.real(0.0);
         let mut roots = vec![derived.value, zero];
@@ -97,18 +115,31 @@ impl Demand<'_> {
             parts.push(Output::Node(roots.len()));
             roots.push(partial);
         }
-        let dimension = if stub.arguments.is_empty() { 0 } else { self.dimension() };
+        let dimension = if stub.arguments.is_empty() {
+            0
+        } else {
+            self.dimension()
+        };
         while parts.len() < dimension {
             parts.push(Output::Node(1));
         }
         parts.push(Output::Node(0));
         let output = Output::Compose(result, parts);
-        Ok(Answer { graph, roots, inputs: self.point_inputs(), output })
+        Ok(Answer {
+            graph,
+            roots,
+            inputs: self.point_inputs(),
+            output,
+        })
     }
 
     /// Dimension of the space that real formulas live in.
     fn dimension(&self) -> usize {
-        if self.formula.scalars().len() == 3 { 3 } else { 2 }
+        if self.formula.scalars().len() == 3 {
+            3
+        } else {
+            2
+        }
     }
 
     /// Value and derivative along the ray o + t d: one tangent, not three.
@@ -119,23 +150,41 @@ impl Demand<'_> {
             .chain([Argument::Whole(2)])
             .collect();
         let t = Formula::leaf(&mut graph, 6, Ty::Real);
-        let roots = substitute(&self.formula.graph, &self.formula.value, &mut graph, |g, k| {
-            let k = usize::from(k);
-            let (o, d) = (Formula::leaf(g, k, Ty::Real), Formula::leaf(g, k + 3, Ty::Real));
-            let step = g.mul(t, d);
-            g.add(o, step)
-        });
+        let roots = substitute(
+            &self.formula.graph,
+            &self.formula.value,
+            &mut graph,
+            |g, k| {
+                let k = usize::from(k);
+                let (o, d) = (
+                    Formula::leaf(g, k, Ty::Real),
+                    Formula::leaf(g, k + 3, Ty::Real),
+                );
+                let step = g.mul(t, d);
+                g.add(o, step)
+            },
+        );
         let one = graph.real(1.0);
         let slope = forward(&mut graph, &roots, &[(t, one)]).map_err(LowerError::NoDerivative)?[0];
         let slope = slope.unwrap_or_else(|| graph.real(0.0));
         let output = Output::Compose(types.vec2, vec![Output::Node(0), Output::Node(1)]);
-        Ok(Answer { graph, roots: vec![roots[0], slope], inputs, output })
+        Ok(Answer {
+            graph,
+            roots: vec![roots[0], slope],
+            inputs,
+            output,
+        })
     }
 
     fn map(&self) -> Answer {
         let (mut graph, roots) = self.graph();
         let root = graph.widen(roots[0]);
-        Answer { graph, roots: vec![root], inputs: self.point_inputs(), output: Output::Node(0) }
+        Answer {
+            graph,
+            roots: vec![root],
+            inputs: self.point_inputs(),
+            output: Output::Node(0),
+        }
     }
 
     fn jet(&self, stub: &Function, types: NagaTypes) -> Result<Answer, LowerError> {
@@ -160,6 +209,11 @@ impl Demand<'_> {
             None => Output::Zero(types.vec2),
         };
         let output = Output::Compose(result, vec![Output::Node(0), Output::Node(1), dzbar]);
-        Ok(Answer { graph, roots, inputs: self.point_inputs(), output })
+        Ok(Answer {
+            graph,
+            roots,
+            inputs: self.point_inputs(),
+            output,
+        })
     }
 }

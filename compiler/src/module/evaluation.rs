@@ -38,7 +38,12 @@ pub struct Evaluation {
 /// It makes no sense for the formula's types, or an operation has no derivative rule.
 pub fn evaluation(formula: &Formula, what: What) -> Result<Evaluation, ModuleError> {
     let (graph, roots) = formula.graph.compacted(&formula.value);
-    let mut out = Evaluation { graph, roots: Vec::new(), columns: Vec::new(), names: Vec::new() };
+    let mut out = Evaluation {
+        graph,
+        roots: Vec::new(),
+        columns: Vec::new(),
+        names: Vec::new(),
+    };
     let value_names = column_names(&formula.name, formula.ty);
     for &root in &roots {
         out.push(root);
@@ -71,7 +76,9 @@ impl Evaluation {
     ) -> Result<(), ModuleError> {
         let scalars = formula.scalars();
         if scalars.contains(&Ty::Complex) || !matches!(formula.ty, Type::Real | Type::Vector(_)) {
-            return Err(demand("a gradient is of a real function of reals; ask for the derivative"));
+            return Err(demand(
+                "a gradient is of a real function of reals; ask for the derivative",
+            ));
         }
         let leaves: Vec<Id> = scalars
             .iter()
@@ -99,11 +106,16 @@ impl Evaluation {
                 let jet = jet(g, roots[0], ComplexVariable::Whole(z))
                     .map_err(LowerError::NoDerivative)?;
                 self.push(jet.dz);
-                let primed = if jet.dzbar.is_some() { format!("∂{name}") } else { format!("{name}'") };
+                let primed = if jet.dzbar.is_some() {
+                    format!("∂{name}")
+                } else {
+                    format!("{name}'")
+                };
                 self.names.extend(column_names(&primed, Type::Complex));
                 if let Some(dzbar) = jet.dzbar {
                     self.push(dzbar);
-                    self.names.extend(column_names(&format!("∂̄{name}"), Type::Complex));
+                    self.names
+                        .extend(column_names(&format!("∂̄{name}"), Type::Complex));
                 }
                 Ok(())
             }
@@ -114,13 +126,20 @@ impl Evaluation {
                 let zero = g.real(0.0);
                 for slope in slopes {
                     let slope = slope.unwrap_or(zero);
-                    let slope = if formula.ty == Type::Complex { self.graph.widen(slope) } else { slope };
+                    let slope = if formula.ty == Type::Complex {
+                        self.graph.widen(slope)
+                    } else {
+                        slope
+                    };
                     self.push(slope);
                 }
-                self.names.extend(column_names(&format!("{name}'"), formula.ty));
+                self.names
+                    .extend(column_names(&format!("{name}'"), formula.ty));
                 Ok(())
             }
-            _ => Err(demand("a derivative is of a function of one variable; ask for the gradient")),
+            _ => Err(demand(
+                "a derivative is of a function of one variable; ask for the gradient",
+            )),
         }
     }
 }

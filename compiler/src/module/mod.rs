@@ -6,6 +6,7 @@ mod rows;
 mod scene;
 mod substitute;
 
+pub use demand::DEMANDS;
 pub use evaluation::{Evaluation, What, evaluation};
 pub use rows::{EvalModule, Evaluator, MAX_COLUMNS, MAX_RESULTS};
 pub use scene::SceneModule;
@@ -73,8 +74,9 @@ impl ModuleError {
 
 /// Validates a finished module.
 pub(crate) fn validate(module: &Module) -> Result<ModuleInfo, ModuleError> {
-    Validator::new(ValidationFlags::all(), Capabilities::default()).validate(module).map_err(
-        |error| {
+    Validator::new(ValidationFlags::all(), Capabilities::default())
+        .validate(module)
+        .map_err(|error| {
             use std::error::Error as _;
             let mut message = error.as_inner().to_string();
             let mut source = error.as_inner().source();
@@ -84,6 +86,5 @@ pub(crate) fn validate(module: &Module) -> Result<ModuleInfo, ModuleError> {
                 source = cause.source();
             }
             ModuleError::Invalid(message)
-        },
-    )
+        })
 }

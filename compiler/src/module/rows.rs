@@ -57,12 +57,21 @@ impl EvalModule {
         }
         let mut linker = Linker::new(vec![template(), math_module()]);
         let outputs = evaluation.names.clone();
-        let mut provider = Rows { formula, evaluation, precision };
+        let mut provider = Rows {
+            formula,
+            evaluation,
+            precision,
+        };
         linker.link_entry_points(0, &mut provider)?;
         let mut module = linker.out;
         naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
         let info = validate(&module)?;
-        Ok(Self { module, info, inputs, outputs })
+        Ok(Self {
+            module,
+            info,
+            inputs,
+            outputs,
+        })
     }
 }
 
@@ -93,7 +102,13 @@ impl Provider for Rows<'_> {
             output: Output::Compose(result, parts),
             precision: self.precision,
         };
-        lower(&self.evaluation.graph, &self.evaluation.roots, interface, linker).map(Some)
+        lower(
+            &self.evaluation.graph,
+            &self.evaluation.roots,
+            interface,
+            linker,
+        )
+        .map(Some)
     }
 }
 
@@ -169,7 +184,12 @@ impl Evaluator {
                 _ => Number::Real(next()),
             })
             .collect();
-        let leaves = Leaves { inputs: &inputs, params, time, pixel };
+        let leaves = Leaves {
+            inputs: &inputs,
+            params,
+            time,
+            pixel,
+        };
         self.values.clear();
         let values = &mut self.values;
         self.tape.run(&leaves, |value| values.push(value));

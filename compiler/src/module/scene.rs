@@ -42,7 +42,12 @@ impl SceneModule {
         naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
         let info = validate(&module)?;
         let (layout, settings_size) = layout(picture.scene);
-        Ok(Self { module, info, layout, settings_size })
+        Ok(Self {
+            module,
+            info,
+            layout,
+            settings_size,
+        })
     }
 
     /// The first step of [`Self::new`]: derivatives, lowering and linking, not yet compacted and validated.
@@ -52,9 +57,11 @@ impl SceneModule {
     pub fn link(picture: &Picture, precision: Precision) -> Result<Module, ModuleError> {
         let sources = Sources::get();
         let template = picture.scene.module();
-        let mut linker =
-            Linker::new(vec![template, sources.entry, sources.shared, sources.math]);
-        let mut demand = Demand { formula: &picture.formula, precision };
+        let mut linker = Linker::new(vec![template, sources.entry, sources.shared, sources.math]);
+        let mut demand = Demand {
+            formula: &picture.formula,
+            precision,
+        };
         linker.link_entry_points(1, &mut demand)?;
         Ok(linker.out)
     }
@@ -94,8 +101,13 @@ fn encode(value: f64, kind: ScalarKind) -> [u8; 4] {
 /// Members of the template's `Settings`, and the size of the uniform that holds them.
 fn layout(scene: &Scene) -> (Vec<Member>, usize) {
     let module = scene.module();
-    let settings = module.global_variables.iter().find(|(_, g)| g.name.as_deref() == Some("settings"));
-    let Some((_, settings)) = settings else { return (Vec::new(), 16) };
+    let settings = module
+        .global_variables
+        .iter()
+        .find(|(_, g)| g.name.as_deref() == Some("settings"));
+    let Some((_, settings)) = settings else {
+        return (Vec::new(), 16);
+    };
     let TypeInner::Struct { members, span } = &module.types[settings.ty].inner else {
         return (Vec::new(), 16);
     };
@@ -107,7 +119,12 @@ fn layout(scene: &Scene) -> (Vec<Member>, usize) {
                 TypeInner::Vector { size, scalar } => (scalar.kind, size as usize),
                 _ => return None,
             };
-            Some(Member { name: m.name.clone()?, offset: m.offset as usize, kind, count })
+            Some(Member {
+                name: m.name.clone()?,
+                offset: m.offset as usize,
+                kind,
+                count,
+            })
         })
         .collect();
     (members, (*span as usize).next_multiple_of(16).max(16))

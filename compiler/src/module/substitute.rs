@@ -20,7 +20,11 @@ pub fn substitute(
         let new = match node.op {
             Op::Input(k) => input(to, k),
             Op::Apply(prim) => {
-                let args: Vec<Id> = node.args.iter().filter_map(|a| map.get(a).copied()).collect();
+                let args: Vec<Id> = node
+                    .args
+                    .iter()
+                    .filter_map(|a| map.get(a).copied())
+                    .collect();
                 to.apply(prim, &args)
             }
             op => to.leaf(op, node.ty),

@@ -56,7 +56,10 @@ pub fn scene(name: &str) -> Option<&'static Scene> {
 /// The scene that shows a function when none is named.
 #[must_use]
 pub fn default_scene(space: Space) -> &'static Scene {
-    scenes().iter().find(|s| s.space == space).unwrap_or(&scenes()[0])
+    scenes()
+        .iter()
+        .find(|s| s.space == space)
+        .unwrap_or(&scenes()[0])
 }
 
 impl Scene {
@@ -64,10 +67,16 @@ impl Scene {
     #[must_use]
     pub fn module(&self) -> &'static Module {
         static MODULES: OnceLock<FxHashMap<&'static str, Module>> = OnceLock::new();
-        let modules = MODULES
-            .get_or_init(|| scenes().iter().map(|s| (s.name, parse_wgsl(s.template).0)).collect());
+        let modules = MODULES.get_or_init(|| {
+            scenes()
+                .iter()
+                .map(|s| (s.name, parse_wgsl(s.template).0))
+                .collect()
+        });
         // every scene is in the map
-        modules.get(self.name).unwrap_or_else(|| crate::link::entry_module())
+        modules
+            .get(self.name)
+            .unwrap_or_else(|| crate::link::entry_module())
     }
 
     /// The setting of this name.

@@ -34,8 +34,19 @@ pub struct SettingSpec {
 impl SettingSpec {
     /// A real setting.
     #[must_use]
-    pub const fn real(name: &'static str, default: f64, range: (f64, f64), doc: &'static str) -> Self {
-        Self { name, doc, kind: SettingKind::Real, default: [default; 3], range }
+    pub const fn real(
+        name: &'static str,
+        default: f64,
+        range: (f64, f64),
+        doc: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            doc,
+            kind: SettingKind::Real,
+            default: [default; 3],
+            range,
+        }
     }
 
     /// A whole-number setting.
@@ -46,7 +57,13 @@ impl SettingSpec {
         range: (f64, f64),
         doc: &'static str,
     ) -> Self {
-        Self { name, doc, kind: SettingKind::Integer, default: [default; 3], range }
+        Self {
+            name,
+            doc,
+            kind: SettingKind::Integer,
+            default: [default; 3],
+            range,
+        }
     }
 
     /// A setting of three reals.
@@ -57,7 +74,13 @@ impl SettingSpec {
         range: (f64, f64),
         doc: &'static str,
     ) -> Self {
-        Self { name, doc, kind: SettingKind::Vec3, default, range }
+        Self {
+            name,
+            doc,
+            kind: SettingKind::Vec3,
+            default,
+            range,
+        }
     }
 
     /// A colour, linear rgb in 0..1.
@@ -98,7 +121,12 @@ impl SettingSpec {
     /// The height of the view of a plane scene.
     #[must_use]
     pub const fn height(default: f64) -> Self {
-        Self::real("height", default, (1e-30, 1e30), "world units from the bottom to the top of the picture")
+        Self::real(
+            "height",
+            default,
+            (1e-30, 1e30),
+            "world units from the bottom to the top of the picture",
+        )
     }
 
     /// Says what is wrong with a value, if anything.
@@ -109,10 +137,16 @@ impl SettingSpec {
         let (lo, hi) = self.range;
         for &x in components {
             if !(lo..=hi).contains(&x) {
-                return Err(format!("`{}` is between {lo:?} and {hi:?}, not {x}", self.name));
+                let wanted = match (lo.is_finite(), hi.is_finite()) {
+                    (true, false) if lo > 0.0 && lo < 1e-20 => "must be greater than 0".to_owned(),
+                    (true, false) => format!("must be at least {lo}"),
+                    (false, true) => format!("must be at most {hi}"),
+                    _ => format!("must lie between {lo:?} and {hi:?}"),
+                };
+                return Err(format!("`{}` {wanted}, not {x}", self.name));
             }
             if self.kind == SettingKind::Integer && x.fract() != 0.0 {
-                return Err(format!("`{}` is a whole number, not {x}", self.name));
+                return Err(format!("`{}` must be a whole number, not {x}", self.name));
             }
         }
         Ok(())

@@ -21,7 +21,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Structural,
             gpu: Gpu::Unary(UnaryOperator::Negate),
             gpu_complex: "",
-            cost: Weight { real: 1, complex: 2 },
+            cost: Weight {
+                real: 1,
+                complex: 2,
+            },
         },
         Row {
             prim: Prim::Add,
@@ -35,7 +38,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Structural,
             gpu: Gpu::Binary(BinaryOperator::Add),
             gpu_complex: "",
-            cost: Weight { real: 1, complex: 2 },
+            cost: Weight {
+                real: 1,
+                complex: 2,
+            },
         },
         Row {
             prim: Prim::Sub,
@@ -49,7 +55,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Structural,
             gpu: Gpu::Binary(BinaryOperator::Subtract),
             gpu_complex: "",
-            cost: Weight { real: 1, complex: 2 },
+            cost: Weight {
+                real: 1,
+                complex: 2,
+            },
         },
         Row {
             prim: Prim::Mul,
@@ -63,7 +72,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Structural,
             gpu: Gpu::Binary(BinaryOperator::Multiply),
             gpu_complex: "complex_mul",
-            cost: Weight { real: 1, complex: 6 },
+            cost: Weight {
+                real: 1,
+                complex: 6,
+            },
         },
         Row {
             prim: Prim::Div,
@@ -77,7 +89,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Structural,
             gpu: Gpu::Binary(BinaryOperator::Divide),
             gpu_complex: "complex_div",
-            cost: Weight { real: 4, complex: 14 },
+            cost: Weight {
+                real: 4,
+                complex: 14,
+            },
         },
         Row {
             prim: Prim::PowInt(2),
@@ -91,7 +106,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Structural,
             gpu: Gpu::Structural,
             gpu_complex: "complex_powi",
-            cost: Weight { real: 16, complex: 40 },
+            cost: Weight {
+                real: 16,
+                complex: 40,
+            },
         },
         Row {
             prim: Prim::Pow,
@@ -105,7 +123,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(pow_partial),
             gpu: Gpu::Library("real_pow", Some(MathFunction::Pow)),
             gpu_complex: "complex_pow",
-            cost: Weight { real: 16, complex: 60 },
+            cost: Weight {
+                real: 16,
+                complex: 60,
+            },
         },
         Row {
             prim: Prim::Sqrt,
@@ -123,7 +144,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Builtin(MathFunction::Sqrt),
             gpu_complex: "complex_sqrt",
-            cost: Weight { real: 4, complex: 20 },
+            cost: Weight {
+                real: 4,
+                complex: 20,
+            },
         },
         Row {
             prim: Prim::Cbrt,
@@ -142,7 +166,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Library("real_cbrt", None),
             gpu_complex: "",
-            cost: Weight { real: 16, complex: 0 },
+            cost: Weight {
+                real: 16,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Hypot,
@@ -156,7 +183,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(length_partial),
             gpu: Gpu::Library("real_hypot", None),
             gpu_complex: "",
-            cost: Weight { real: 8, complex: 0 },
+            cost: Weight {
+                real: 8,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Hypot3,
@@ -170,7 +200,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(length_partial),
             gpu: Gpu::Library("real_hypot3", None),
             gpu_complex: "",
-            cost: Weight { real: 10, complex: 0 },
+            cost: Weight {
+                real: 10,
+                complex: 0,
+            },
         },
     ]
 }
@@ -185,7 +218,9 @@ fn length_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
 
 /// ∂(a^b)/∂a = b a^(b-1), which is finite at a = 0 where a^b b/a is not; ∂(a^b)/∂b = a^b log a, and 0 at a = 0.
 fn pow_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
-    let &[base, exponent] = args else { return value };
+    let &[base, exponent] = args else {
+        return value;
+    };
     if k == 0 {
         let lower = plus(g, exponent, -1.0);
         let power = g.apply(Prim::Pow, &[base, lower]);
@@ -193,7 +228,11 @@ fn pow_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     }
     let log = call(g, Prim::Log, base);
     let product = g.mul(value, log);
-    let zero = if g.ty(base) == crate::ir::Ty::Complex { g.complex(0.0, 0.0) } else { g.real(0.0) };
+    let zero = if g.ty(base) == crate::ir::Ty::Complex {
+        g.complex(0.0, 0.0)
+    } else {
+        g.real(0.0)
+    };
     let at_zero = g.apply(Prim::Equal, &[base, zero]);
     g.apply(Prim::Select, &[at_zero, zero, product])
 }

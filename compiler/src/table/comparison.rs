@@ -18,11 +18,17 @@ pub fn rows() -> Vec<Row> {
         derivative: Derivative::Zero,
         gpu: Gpu::Binary(op),
         gpu_complex: "",
-        cost: Weight { real: 1, complex: 0 },
+        cost: Weight {
+            real: 1,
+            complex: 0,
+        },
     };
     let equality = |prim, mnemonic, usage, doc, op| Row {
         typing: Typing::Equality,
-        cost: Weight { real: 1, complex: 3 },
+        cost: Weight {
+            real: 1,
+            complex: 3,
+        },
         ..order(prim, mnemonic, usage, doc, op)
     };
     let logic = |prim, mnemonic, usage, doc, op| Row {
@@ -30,7 +36,13 @@ pub fn rows() -> Vec<Row> {
         ..order(prim, mnemonic, usage, doc, op)
     };
     vec![
-        order(Prim::Less, "less", "a < b", "whether a is below b", BinaryOperator::Less),
+        order(
+            Prim::Less,
+            "less",
+            "a < b",
+            "whether a is below b",
+            BinaryOperator::Less,
+        ),
         order(
             Prim::LessEqual,
             "lessequal",
@@ -38,7 +50,13 @@ pub fn rows() -> Vec<Row> {
             "whether a is not above b",
             BinaryOperator::LessEqual,
         ),
-        equality(Prim::Equal, "equal", "a == b", "whether both are equal", BinaryOperator::Equal),
+        equality(
+            Prim::Equal,
+            "equal",
+            "a == b",
+            "whether both are equal",
+            BinaryOperator::Equal,
+        ),
         equality(
             Prim::NotEqual,
             "notequal",
@@ -46,18 +64,39 @@ pub fn rows() -> Vec<Row> {
             "whether both differ",
             BinaryOperator::NotEqual,
         ),
-        logic(Prim::And, "and", "a and b", "both", BinaryOperator::LogicalAnd),
-        logic(Prim::Or, "or", "a or b", "at least one", BinaryOperator::LogicalOr),
+        logic(
+            Prim::And,
+            "and",
+            "a and b",
+            "both",
+            BinaryOperator::LogicalAnd,
+        ),
+        logic(
+            Prim::Or,
+            "or",
+            "a or b",
+            "at least one",
+            BinaryOperator::LogicalOr,
+        ),
         Row {
             typing: Typing::Logic(1),
             gpu: Gpu::Unary(UnaryOperator::LogicalNot),
-            ..order(Prim::Not, "not", "not a", "the opposite", BinaryOperator::Equal)
+            ..order(
+                Prim::Not,
+                "not",
+                "not a",
+                "the opposite",
+                BinaryOperator::Equal,
+            )
         },
         Row {
             typing: Typing::Select,
             derivative: Derivative::Structural,
             gpu: Gpu::Structural,
-            cost: Weight { real: 1, complex: 2 },
+            cost: Weight {
+                real: 1,
+                complex: 2,
+            },
             ..order(
                 Prim::Select,
                 "select",

@@ -19,7 +19,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Structural,
             gpu: Gpu::Structural,
             gpu_complex: "",
-            cost: Weight { real: 0, complex: 0 },
+            cost: Weight {
+                real: 0,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Re,
@@ -33,7 +36,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Structural,
             gpu: Gpu::Structural,
             gpu_complex: "",
-            cost: Weight { real: 0, complex: 0 },
+            cost: Weight {
+                real: 0,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Im,
@@ -47,7 +53,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Structural,
             gpu: Gpu::Structural,
             gpu_complex: "",
-            cost: Weight { real: 0, complex: 0 },
+            cost: Weight {
+                real: 0,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Conj,
@@ -61,7 +70,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Structural,
             gpu: Gpu::Structural,
             gpu_complex: "",
-            cost: Weight { real: 0, complex: 1 },
+            cost: Weight {
+                real: 0,
+                complex: 1,
+            },
         },
         Row {
             prim: Prim::Abs,
@@ -75,7 +87,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Structural,
             gpu: Gpu::Builtin(MathFunction::Abs),
             gpu_complex: "complex_abs",
-            cost: Weight { real: 1, complex: 8 },
+            cost: Weight {
+                real: 1,
+                complex: 8,
+            },
         },
         Row {
             prim: Prim::Arg,
@@ -87,9 +102,12 @@ pub fn rows() -> Vec<Row> {
             real: Some(|a| 0.0_f64.atan2(a[0])),
             complex: None,
             derivative: Derivative::Structural,
-            gpu: Gpu::Library("real_arg", None),
+            gpu: Gpu::Structural,
             gpu_complex: "complex_arg",
-            cost: Weight { real: 2, complex: 16 },
+            cost: Weight {
+                real: 2,
+                complex: 16,
+            },
         },
     ]
 }

@@ -6,8 +6,8 @@ use naga::MathFunction;
 
 use super::derivative::{call, plus, reciprocal, scaled};
 use super::{Derivative, Gpu, Row, Typing, Weight};
-use crate::reference::real;
 use crate::ir::Prim;
+use crate::reference::real;
 
 pub fn rows() -> Vec<Row> {
     vec![
@@ -23,7 +23,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(|_, _, value, _| value),
             gpu: Gpu::Library("real_exp", Some(MathFunction::Exp)),
             gpu_complex: "complex_exp",
-            cost: Weight { real: 8, complex: 26 },
+            cost: Weight {
+                real: 8,
+                complex: 26,
+            },
         },
         Row {
             prim: Prim::Exp2,
@@ -38,7 +41,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(|g, _, value, _| scaled(g, LN_2, value)),
             gpu: Gpu::Library("real_exp2", Some(MathFunction::Exp2)),
             gpu_complex: "",
-            cost: Weight { real: 8, complex: 0 },
+            cost: Weight {
+                real: 8,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Expm1,
@@ -52,7 +58,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(|g, args, _, _| call(g, Prim::Exp, args[0])),
             gpu: Gpu::Library("real_expm1", None),
             gpu_complex: "",
-            cost: Weight { real: 12, complex: 0 },
+            cost: Weight {
+                real: 12,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Log,
@@ -66,7 +75,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(|g, args, _, _| reciprocal(g, args[0])),
             gpu: Gpu::Library("real_log", Some(MathFunction::Log)),
             gpu_complex: "complex_log",
-            cost: Weight { real: 8, complex: 26 },
+            cost: Weight {
+                real: 8,
+                complex: 26,
+            },
         },
         Row {
             prim: Prim::Log2,
@@ -84,7 +96,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Library("real_log2", Some(MathFunction::Log2)),
             gpu_complex: "",
-            cost: Weight { real: 8, complex: 0 },
+            cost: Weight {
+                real: 8,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Log10,
@@ -102,7 +117,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Library("real_log10", None),
             gpu_complex: "",
-            cost: Weight { real: 9, complex: 0 },
+            cost: Weight {
+                real: 9,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Log1p,
@@ -119,7 +137,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Library("real_log1p", None),
             gpu_complex: "",
-            cost: Weight { real: 12, complex: 0 },
+            cost: Weight {
+                real: 12,
+                complex: 0,
+            },
         },
     ]
 }

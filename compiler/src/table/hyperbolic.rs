@@ -4,8 +4,8 @@ use naga::MathFunction;
 
 use super::derivative::{call, from, plus, reciprocal, square};
 use super::{Derivative, Gpu, Row, Typing, Weight};
-use crate::reference::real;
 use crate::ir::{Graph, Id, Prim, Ty};
+use crate::reference::real;
 
 pub fn rows() -> Vec<Row> {
     vec![
@@ -21,7 +21,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(|g, args, _, _| call(g, Prim::Cosh, args[0])),
             gpu: Gpu::Library("real_sinh", Some(MathFunction::Sinh)),
             gpu_complex: "complex_sinh",
-            cost: Weight { real: 12, complex: 34 },
+            cost: Weight {
+                real: 12,
+                complex: 34,
+            },
         },
         Row {
             prim: Prim::Cosh,
@@ -35,7 +38,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(|g, args, _, _| call(g, Prim::Sinh, args[0])),
             gpu: Gpu::Library("real_cosh", Some(MathFunction::Cosh)),
             gpu_complex: "complex_cosh",
-            cost: Weight { real: 12, complex: 34 },
+            cost: Weight {
+                real: 12,
+                complex: 34,
+            },
         },
         Row {
             prim: Prim::Tanh,
@@ -54,7 +60,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Library("real_tanh", Some(MathFunction::Tanh)),
             gpu_complex: "complex_tanh",
-            cost: Weight { real: 12, complex: 40 },
+            cost: Weight {
+                real: 12,
+                complex: 40,
+            },
         },
         Row {
             prim: Prim::Asinh,
@@ -68,7 +77,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(asinh_partial),
             gpu: Gpu::Library("real_asinh", Some(MathFunction::Asinh)),
             gpu_complex: "complex_asinh",
-            cost: Weight { real: 16, complex: 60 },
+            cost: Weight {
+                real: 16,
+                complex: 60,
+            },
         },
         Row {
             prim: Prim::Acosh,
@@ -88,7 +100,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Library("real_acosh", Some(MathFunction::Acosh)),
             gpu_complex: "complex_acosh",
-            cost: Weight { real: 16, complex: 60 },
+            cost: Weight {
+                real: 16,
+                complex: 60,
+            },
         },
         Row {
             prim: Prim::Atanh,
@@ -102,7 +117,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(atanh_partial),
             gpu: Gpu::Library("real_atanh", Some(MathFunction::Atanh)),
             gpu_complex: "complex_atanh",
-            cost: Weight { real: 16, complex: 50 },
+            cost: Weight {
+                real: 16,
+                complex: 50,
+            },
         },
     ]
 }

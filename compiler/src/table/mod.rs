@@ -112,7 +112,10 @@ pub struct Pair {
 /// The pair that a function belongs to.
 #[must_use]
 pub fn pair(prim: Prim) -> Option<Pair> {
-    let extra = Weight { real: 3, complex: 8 };
+    let extra = Weight {
+        real: 3,
+        complex: 8,
+    };
     let circular = |partner, place| Pair {
         partner,
         place,
@@ -137,6 +140,17 @@ pub fn pair(prim: Prim) -> Option<Pair> {
 }
 
 impl Row {
+    /// The usual name, or the sign where there is no name: `sin`, `+`.
+    #[must_use]
+    pub fn sign(&self) -> &'static str {
+        let is_operand = |c: char| c.is_ascii_lowercase() || c == ' ';
+        let written = self.usage.rsplit(", ").next().unwrap_or(self.usage);
+        self.names
+            .first()
+            .copied()
+            .unwrap_or_else(|| written.trim_matches(is_operand))
+    }
+
     /// The operation's value, in `f64`; `None` where the operand types do not fit.
     #[must_use]
     pub fn evaluate(&self, prim: Prim, operands: &[Number]) -> Option<Number> {
@@ -167,14 +181,65 @@ pub fn row(prim: Prim) -> &'static Row {
     static INDEX: OnceLock<FxHashMap<Discriminant<Prim>, &'static Row>> = OnceLock::new();
     let index = INDEX.get_or_init(|| rows().iter().map(|r| (discriminant(&r.prim), r)).collect());
     // A unit test holds that every primitive has a row; the first row stands in for one that has not.
-    index.get(&discriminant(&prim)).copied().unwrap_or(&rows()[0])
+    index
+        .get(&discriminant(&prim))
+        .copied()
+        .unwrap_or(&rows()[0])
 }
 
 /// The row of a function by its name or alias in the language.
 #[must_use]
 pub fn by_name(name: &str) -> Option<&'static Row> {
     static INDEX: OnceLock<FxHashMap<&'static str, &'static Row>> = OnceLock::new();
-    let index = INDEX
-        .get_or_init(|| rows().iter().flat_map(|r| r.names.iter().map(move |&n| (n, r))).collect());
+    let index = INDEX.get_or_init(|| {
+        rows()
+            .iter()
+            .flat_map(|r| r.names.iter().map(move |&n| (n, r)))
+            .collect()
+    });
     index.get(name).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_mnemonics_are_unique() {
+        let mut names: Vec<&str> = rows()
+            .iter()
+            .flat_map(|r| r.names.iter().copied())
+            .collect();
+        let mut mnemonics: Vec<&str> = rows().iter().map(|r| r.mnemonic).collect();
+        for list in [&mut names, &mut mnemonics] {
+            let count = list.len();
+            list.sort_unstable();
+            list.dedup();
+            assert_eq!(list.len(), count);
+        }
+    }
+
+    /// Every library function that a row names exists in the shader library.
+    #[test]
+    fn shader_functions_exist() {
+        let known: Vec<&str> = crate::link::math_module()
+            .functions
+            .iter()
+            .filter_map(|(_, f)| f.name.as_deref())
+            .collect();
+        for row in rows() {
+            if let Gpu::Library(name, _) = row.gpu {
+                assert!(known.contains(&name), "{name}");
+            }
+            if !row.gpu_complex.is_empty() {
+                assert!(known.contains(&row.gpu_complex), "{}", row.gpu_complex);
+            }
+            if let Some(pair) = pair(row.prim) {
+                assert!(known.contains(&pair.gpu) && known.contains(&pair.gpu_complex));
+            }
+        }
+        for name in ["make_infinity", "make_nan", "real_powi"] {
+            assert!(known.contains(&name), "{name}");
+        }
+    }
 }

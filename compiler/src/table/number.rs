@@ -25,7 +25,11 @@ impl Number {
     }
 
     fn real(self) -> Option<f64> {
-        if let Self::Real(x) = self { Some(x) } else { None }
+        if let Self::Real(x) = self {
+            Some(x)
+        } else {
+            None
+        }
     }
 }
 
@@ -33,10 +37,17 @@ pub(super) fn evaluate(row: &Row, prim: Prim, operands: &[Number]) -> Option<Num
     if let Some(value) = structural(prim, operands) {
         return Some(value);
     }
-    if let Some(reals) = operands.iter().map(|v| v.real()).collect::<Option<ArgBuffer<f64>>>() {
+    if let Some(reals) = operands
+        .iter()
+        .map(|v| v.real())
+        .collect::<Option<ArgBuffer<f64>>>()
+    {
         return Some(Number::Real(row.real?(&reals)));
     }
-    let operands = operands.iter().map(|v| v.widened()).collect::<Option<ArgBuffer<Complex>>>()?;
+    let operands = operands
+        .iter()
+        .map(|v| v.widened())
+        .collect::<Option<ArgBuffer<Complex>>>()?;
     Some(Number::Complex(row.complex?(&operands)))
 }
 

@@ -6,7 +6,10 @@ use super::{Derivative, Gpu, Row, Typing, Weight};
 use crate::ir::Prim;
 use crate::reference::real;
 
-const CHEAP: Weight = Weight { real: 1, complex: 0 };
+const CHEAP: Weight = Weight {
+    real: 1,
+    complex: 0,
+};
 
 pub fn rows() -> Vec<Row> {
     vec![
@@ -50,7 +53,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Zero,
             gpu: Gpu::Library("real_round", None),
             gpu_complex: "",
-            cost: Weight { real: 3, complex: 0 },
+            cost: Weight {
+                real: 3,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Trunc,
@@ -78,7 +84,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(|g, _, _, _| g.real(1.0)),
             gpu: Gpu::Library("real_fract", None),
             gpu_complex: "",
-            cost: Weight { real: 3, complex: 0 },
+            cost: Weight {
+                real: 3,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Mod,
@@ -100,7 +109,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Library("real_mod", None),
             gpu_complex: "",
-            cost: Weight { real: 8, complex: 0 },
+            cost: Weight {
+                real: 8,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Sign,

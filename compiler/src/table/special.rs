@@ -22,7 +22,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Library("real_gamma", None),
             gpu_complex: "complex_gamma",
-            cost: Weight { real: 40, complex: 120 },
+            cost: Weight {
+                real: 40,
+                complex: 120,
+            },
         },
         Row {
             prim: Prim::Lgamma,
@@ -36,7 +39,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(|g, args, _, _| g.apply(Prim::Digamma, &[args[0]])),
             gpu: Gpu::Library("real_lgamma", None),
             gpu_complex: "",
-            cost: Weight { real: 40, complex: 0 },
+            cost: Weight {
+                real: 40,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Digamma,
@@ -50,7 +56,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(|g, args, _, _| g.apply(Prim::Trigamma, &[args[0]])),
             gpu: Gpu::Library("real_digamma", None),
             gpu_complex: "complex_digamma",
-            cost: Weight { real: 40, complex: 100 },
+            cost: Weight {
+                real: 40,
+                complex: 100,
+            },
         },
         Row {
             prim: Prim::Trigamma,
@@ -64,7 +73,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Missing,
             gpu: Gpu::Library("real_trigamma", None),
             gpu_complex: "complex_trigamma",
-            cost: Weight { real: 40, complex: 100 },
+            cost: Weight {
+                real: 40,
+                complex: 100,
+            },
         },
     ]
 }

@@ -21,7 +21,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(|g, args, _, _| call(g, Prim::Cos, args[0])),
             gpu: Gpu::Library("real_sin", Some(MathFunction::Sin)),
             gpu_complex: "complex_sin",
-            cost: Weight { real: 8, complex: 34 },
+            cost: Weight {
+                real: 8,
+                complex: 34,
+            },
         },
         Row {
             prim: Prim::Cos,
@@ -38,7 +41,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Library("real_cos", Some(MathFunction::Cos)),
             gpu_complex: "complex_cos",
-            cost: Weight { real: 8, complex: 34 },
+            cost: Weight {
+                real: 8,
+                complex: 34,
+            },
         },
         Row {
             prim: Prim::Tan,
@@ -52,7 +58,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(tan_partial),
             gpu: Gpu::Library("real_tan", Some(MathFunction::Tan)),
             gpu_complex: "complex_tan",
-            cost: Weight { real: 12, complex: 40 },
+            cost: Weight {
+                real: 12,
+                complex: 40,
+            },
         },
         Row {
             prim: Prim::Asin,
@@ -70,7 +79,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Library("real_asin", Some(MathFunction::Asin)),
             gpu_complex: "complex_asin",
-            cost: Weight { real: 12, complex: 60 },
+            cost: Weight {
+                real: 12,
+                complex: 60,
+            },
         },
         Row {
             prim: Prim::Acos,
@@ -89,7 +101,10 @@ pub fn rows() -> Vec<Row> {
             }),
             gpu: Gpu::Library("real_acos", Some(MathFunction::Acos)),
             gpu_complex: "complex_acos",
-            cost: Weight { real: 12, complex: 60 },
+            cost: Weight {
+                real: 12,
+                complex: 60,
+            },
         },
         Row {
             prim: Prim::Atan,
@@ -103,7 +118,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(atan_partial),
             gpu: Gpu::Library("real_atan", Some(MathFunction::Atan)),
             gpu_complex: "complex_atan",
-            cost: Weight { real: 12, complex: 50 },
+            cost: Weight {
+                real: 12,
+                complex: 50,
+            },
         },
         Row {
             prim: Prim::Atan2,
@@ -117,7 +135,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(atan2_partial),
             gpu: Gpu::Library("real_atan2", Some(MathFunction::Atan2)),
             gpu_complex: "",
-            cost: Weight { real: 16, complex: 0 },
+            cost: Weight {
+                real: 16,
+                complex: 0,
+            },
         },
         Row {
             prim: Prim::Sinc,
@@ -131,7 +152,10 @@ pub fn rows() -> Vec<Row> {
             derivative: Derivative::Partial(sinc_partial),
             gpu: Gpu::Library("real_sinc", None),
             gpu_complex: "",
-            cost: Weight { real: 12, complex: 0 },
+            cost: Weight {
+                real: 12,
+                complex: 0,
+            },
         },
     ]
 }

@@ -8,6 +8,7 @@ use crate::{Diagnostic, Span};
 impl Parser<'_> {
     #[cold]
     pub(crate) fn complain_not_closed(&mut self, opened: &Opened) {
+        self.is_broken = true;
         let (open, close) = match opened.kind {
             TokenKind::LParen => ("(", ")"),
             _ => ("{", "}"),
@@ -135,6 +136,14 @@ impl Parser<'_> {
     #[cold]
     pub(crate) fn complain_unexpected(&mut self, opened: Option<&Opened>) {
         let kind = self.kind();
+        let is_consequence = matches!(
+            kind,
+            TokenKind::RParen | TokenKind::RBrace | TokenKind::Comma | TokenKind::Colon
+        );
+        if self.is_broken && is_consequence {
+            self.mark_complained();
+            return;
+        }
         let quoted = self.describe();
         let defines = kind == TokenKind::Name && self.ahead(1) == TokenKind::Equals;
         let (code, message, hint) = match kind {

@@ -242,6 +242,21 @@ impl Parser<'_> {
         found
     }
 
+    /// Whether a parameter follows without a comma; complains about that.
+    pub(crate) fn missing_comma_between_parameters(&mut self) -> bool {
+        let found = self.at(TokenKind::Name);
+        if found {
+            let message = format!("missing `,` before {}", self.describe());
+            let span = self.span();
+            self.complain(
+                Diagnostic::error("missing-comma", span, message)
+                    .with_label("expected `,`")
+                    .with_hint("write `,` between parameters"),
+            );
+        }
+        found
+    }
+
     /// `name =` of a setting.
     pub(crate) fn expect_setting(&mut self) -> Option<Name> {
         self.skip_strays();

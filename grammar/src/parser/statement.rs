@@ -48,7 +48,7 @@ impl Parser<'_> {
         } else {
             loop {
                 params.extend(self.formal());
-                if !self.separator(&opened) {
+                if !self.missing_comma_between_parameters() && !self.separator(&opened) {
                     break;
                 }
             }

@@ -3,6 +3,7 @@
 use std::io::{self, BufWriter, Write};
 
 use clap::Args;
+use pullback_compiler::table::Typing;
 use pullback_compiler::{check, table};
 
 use super::failure::Failure;
@@ -26,6 +27,7 @@ pub(super) fn run(arguments: &FunctionsArguments) -> Result<(), Failure> {
 /// A function or operator as people look it up.
 struct Entry {
     usage: String,
+    types: &'static str,
     also: Vec<&'static str>,
     doc: String,
 }
@@ -35,31 +37,57 @@ fn entries() -> Vec<Entry> {
     let also = |names: &'static [&'static str]| names.iter().skip(1).copied().collect();
     let table = table::rows().iter().map(|row| Entry {
         usage: row.usage.to_owned(),
+        types: types(row),
         also: also(row.names),
         doc: row.doc.to_owned(),
     });
     let built = check::builtins().iter().map(|builtin| Entry {
         usage: builtin.usage.to_owned(),
+        types: "vectors",
         also: also(builtin.names),
         doc: builtin.doc.to_owned(),
     });
     let library = check::library_functions().iter().map(|function| Entry {
         usage: function.usage.to_owned(),
+        types: "as defined",
         also: Vec::new(),
         doc: function.doc.to_owned(),
     });
     table.chain(built).chain(library).collect()
 }
 
+/// What an operation takes, in words.
+fn types(row: &table::Row) -> &'static str {
+    match row.typing {
+        Typing::Arithmetic(_) | Typing::Analytic(_) => "real, complex",
+        Typing::Real(_) => "real",
+        Typing::Part => "real, complex → real",
+        Typing::MakeComplex => "real → complex",
+        Typing::Order => "real → bool",
+        Typing::Equality => "real, complex → bool",
+        Typing::Logic(_) => "bool",
+        Typing::Select => "bool, then any",
+    }
+}
+
 fn list(output: &mut dyn Write, markdown: bool) -> io::Result<()> {
     let entries = entries();
     if markdown {
-        writeln!(output, "| written | also | meaning |\n| --- | --- | --- |")?;
-        for Entry { usage, also, doc } in entries {
+        writeln!(
+            output,
+            "| written | also | takes | meaning |\n| --- | --- | --- | --- |"
+        )?;
+        for Entry {
+            usage,
+            types,
+            also,
+            doc,
+        } in entries
+        {
             let also: Vec<_> = also.iter().map(|name| format!("`{name}`")).collect();
             writeln!(
                 output,
-                "| `{}` | {} | {} |",
+                "| `{}` | {} | {types} | {} |",
                 usage.replace('|', "\\|"),
                 also.join(", "),
                 doc.replace('|', "\\|")
@@ -69,7 +97,10 @@ fn list(output: &mut dyn Write, markdown: bool) -> io::Result<()> {
     }
     let lengths = entries.iter().map(|entry| entry.usage.chars().count());
     let width = lengths.max().unwrap_or(0);
-    for Entry { usage, also, doc } in entries {
+    for Entry {
+        usage, also, doc, ..
+    } in entries
+    {
         write!(output, "{usage:width$}  {doc}")?;
         if !also.is_empty() {
             write!(output, " (also {})", also.join(", "))?;

@@ -6,7 +6,9 @@ use clap::{Args, ValueEnum};
 use pullback_compiler::scene::{SettingKind, Space};
 use pullback_compiler::{Picture, SettingValue};
 use pullback_runtime::render::{MAX_SAMPLES, MAX_SIDE};
-use pullback_runtime::{Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, image_file};
+use pullback_runtime::{
+    Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, fill_in_scale, image_file,
+};
 
 use super::failure::Failure;
 use super::progress::{Counted, Progress};
@@ -57,13 +59,22 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     let source = Source::open(&arguments.input, console)?;
     let index = source.picture(arguments.which, console)?;
     let picture = &source.program.pictures()[index];
-    let (params, settings) =
+    let (params, mut settings) =
         overrides::for_picture(&arguments.settings.set, &source.program, picture)?;
+    let view = view(arguments, picture, &settings)?;
+    fill_in_scale(
+        &mut settings,
+        picture,
+        &view,
+        arguments.size,
+        &params,
+        arguments.settings.time,
+    );
     let precision = arguments.numbers.into();
     let scene = source.expect(source.program.scene_module(index, precision), console)?;
     let bytes = scene.pack_settings(&settings);
     let frame = Frame {
-        view: view(arguments, picture, &settings)?,
+        view,
         params: &params,
         settings: &bytes,
         size: arguments.size,

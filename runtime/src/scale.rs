@@ -1,0 +1,95 @@
+//! The colour scale of a picture that does not state one.
+
+use pullback_compiler::module::{Evaluator, What};
+use pullback_compiler::{Picture, SettingValue};
+
+use crate::render::{Size, View};
+
+/// Samples along each side of the view.
+const SAMPLES: usize = 33;
+/// The share of the view whose values stay below the scale, and the share whose values stay below four times the
+/// scale: a function that is small in most of the view still shows its peaks.
+const SHARES: (f64, f64) = (0.6, 0.95);
+/// Level lines from 0 to the scale, as the template draws them.
+const LINES: f64 = 4.0;
+
+/// Sets an automatic `color_scale` from the values that the formula takes in the view, in f64, such that level lines
+/// stand at round values.
+pub fn fill_in_scale(
+    settings: &mut [SettingValue],
+    picture: &Picture,
+    view: &View,
+    size: Size,
+    params: &[f64],
+    time: f64,
+) {
+    let Some(setting) = settings.iter_mut().find(|s| s.spec.name == "color_scale") else {
+        return;
+    };
+    if setting.value[0] != 0.0 {
+        return;
+    }
+    let Ok(mut evaluator) = Evaluator::new(&picture.formula, What::Value) else {
+        return;
+    };
+    let width = view.height * f64::from(size.width) / f64::from(size.height);
+    let pixel = view.height / f64::from(size.height);
+    let mut sizes = Vec::with_capacity(SAMPLES * SAMPLES);
+    for k in 0..SAMPLES * SAMPLES {
+        let place = |k: usize| (k as f64 + 0.5) / SAMPLES as f64 - 0.5;
+        let x = view.center[0] + place(k % SAMPLES) * width;
+        let y = view.center[1] + place(k / SAMPLES) * view.height;
+        let mut value = [f64::NAN];
+        evaluator.eval(params, time, pixel, &[x, y], &mut value);
+        if value[0].is_finite() {
+            sizes.push(value[0].abs());
+        }
+    }
+    sizes.retain(|s| *s > 0.0);
+    sizes.sort_by(f64::total_cmp);
+    let scale = share(&sizes, SHARES.0).max(share(&sizes, SHARES.1) / 4.0);
+    setting.value = [LINES * round_number(scale / LINES); 3];
+}
+
+/// The size below which a share of the sorted sizes lies; 1 where there are none.
+fn share(sizes: &[f64], share: f64) -> f64 {
+    let place = (sizes.len() as f64 * share) as usize;
+    sizes.get(place).copied().unwrap_or(1.0)
+}
+
+/// The greatest of 1, 2, 5 times a power of ten that is not above `x`, kept within what f32 holds.
+fn round_number(x: f64) -> f64 {
+    let x = x.clamp(1e-30, 1e30);
+    let decade = 10f64.powf(x.log10().floor());
+    let steps = [5.0, 2.0, 1.0];
+    steps
+        .into_iter()
+        .map(|s| s * decade)
+        .find(|s| *s <= x * 1.000_001)
+        .unwrap_or(decade)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn round_numbers() {
+        for (x, want) in [
+            (1.0, 1.0),
+            (0.23, 0.2),
+            (7.0, 5.0),
+            (99.0, 50.0),
+            (1000.0, 1000.0),
+        ] {
+            assert!((round_number(x) / want - 1.0).abs() < 1e-9, "{x}");
+        }
+    }
+
+    #[test]
+    fn share_of_sizes() {
+        assert_eq!(share(&[], 0.6), 1.0);
+        let sizes: Vec<f64> = (1..=10).map(f64::from).collect();
+        assert_eq!((share(&sizes, 0.6), share(&sizes, 0.95)), (7.0, 10.0));
+    }
+}

@@ -1,0 +1,118 @@
+//! Wrong programs: each mistake gives its diagnostic, at its place, once.
+
+use pullback_compiler::compile;
+use pullback_grammar::Diagnostic;
+use pullback_tests::corpus::{Expected, WrongProgram, wrong_programs};
+use pullback_tests::holds;
+
+/// Codes that are warnings.
+const WARNINGS: [&str; 2] = ["ambiguous-division", "shadows-builtin"];
+
+fn fits(expected: &Expected, found: &Diagnostic, text: &str) -> bool {
+    found.code == expected.code
+        && (expected.spanned.is_empty() || found.span.text(text) == expected.spanned)
+        && (expected.hint.is_empty()
+            || found
+                .hint
+                .as_ref()
+                .is_some_and(|hint| hint.contains(&expected.hint)))
+        && found.is_error() != WARNINGS.contains(&found.code)
+}
+
+fn show(found: &Diagnostic, text: &str) -> String {
+    let hint = found.hint.as_deref().unwrap_or("");
+    format!(
+        "{} \"{}\" : {hint}   [{}]",
+        found.code,
+        found.span.text(text),
+        found.message
+    )
+}
+
+/// What is wrong with the answer to a wrong program.
+fn complaints(case: &WrongProgram) -> Vec<String> {
+    let answer = compile(&case.text);
+    let mut out: Vec<String> = holds::compilation(&case.text, &answer)
+        .err()
+        .into_iter()
+        .collect();
+    let mut found: Vec<&Diagnostic> = answer.diagnostics.iter().collect();
+    for expected in &case.expected {
+        match found.iter().position(|f| fits(expected, f, &case.text)) {
+            Some(at) => {
+                found.remove(at);
+            }
+            None => out.push(format!(
+                "missing {} \"{}\" : {}",
+                expected.code, expected.spanned, expected.hint
+            )),
+        }
+    }
+    out.extend(
+        found
+            .iter()
+            .map(|f| format!("unexpected {}", show(f, &case.text))),
+    );
+    out
+}
+
+#[test]
+fn every_wrong_program_gives_its_diagnostics() {
+    let cases = wrong_programs();
+    assert!(cases.len() >= 60, "only {} wrong programs", cases.len());
+    let mut failures = Vec::new();
+    for case in &cases {
+        let complaints = complaints(case);
+        if !complaints.is_empty() {
+            failures.push(format!("{}\n  {}", case.name, complaints.join("\n  ")));
+        }
+    }
+    assert!(
+        failures.is_empty(),
+        "{} of {} programs:\n{}",
+        failures.len(),
+        cases.len(),
+        failures.join("\n")
+    );
+}
+
+/// Rendered as the command line shows them, without colour.
+fn rendered(text: &str) -> String {
+    pullback_grammar::render(&compile(text).diagnostics, "picture.pull", text, false)
+}
+
+fn of_corpus(name: &str) -> String {
+    let cases = wrong_programs();
+    let case = cases
+        .iter()
+        .find(|c| c.name == name)
+        .unwrap_or_else(|| panic!("no case {name}"));
+    rendered(&case.text)
+}
+
+#[test]
+fn diagnostics_read_well() {
+    let names = [
+        "unknown-function-sine",
+        "several-stages",
+        "ambiguous-division",
+        "missing-closing-call",
+        "duplicate-function",
+        "recursion-of-three",
+        "comparison-of-complex-chained",
+        "levels-of-space-function",
+        "param-outside-its-range",
+        "setting-needs-vector",
+        "stray-character-question",
+        "unmatched-closing-crossed",
+        "complex-argument-of-real-parameter",
+        "formal-without-comma",
+        "empty-file",
+        "where-local-before-definition",
+    ];
+    let shown: Vec<String> = names
+        .iter()
+        .map(|n| format!("=== {n}\n{}", of_corpus(n)))
+        .collect();
+    insta::assert_snapshot!(shown.join("\n"));
+}
