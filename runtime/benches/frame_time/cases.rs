@@ -22,11 +22,23 @@ struct Method {
     text: &'static str,
 }
 
-const LEVELS: &[Method] = &[Method { name: "twin", text: include_str!("../twins/levels.wgsl") }];
-const DOMAIN: &[Method] = &[Method { name: "twin", text: include_str!("../twins/domain.wgsl") }];
+const LEVELS: &[Method] = &[Method {
+    name: "twin",
+    text: include_str!("../twins/levels.wgsl"),
+}];
+const DOMAIN: &[Method] = &[Method {
+    name: "twin",
+    text: include_str!("../twins/domain.wgsl"),
+}];
 const SURFACE: &[Method] = &[
-    Method { name: "twin", text: include_str!("../twins/surface.wgsl") },
-    Method { name: "signs", text: include_str!("../twins/surface-signs.wgsl") },
+    Method {
+        name: "twin",
+        text: include_str!("../twins/surface.wgsl"),
+    },
+    Method {
+        name: "signs",
+        text: include_str!("../twins/surface-signs.wgsl"),
+    },
 ];
 
 macro_rules! case {
@@ -80,12 +92,21 @@ impl Case {
         let fast = ours(Precision::Fast)?;
         let settings = accurate.pack_settings(&picture.settings);
         let mut shaders = vec![
-            Shader { name: "accurate", module: accurate.module },
-            Shader { name: "fast", module: fast.module },
+            Shader {
+                name: "accurate",
+                module: accurate.module,
+            },
+            Shader {
+                name: "fast",
+                module: fast.module,
+            },
         ];
         for method in self.methods {
             let module = twin(picture, &[method.text, self.formula].concat())?;
-            shaders.push(Shader { name: method.name, module });
+            shaders.push(Shader {
+                name: method.name,
+                module,
+            });
         }
         let mut params = [0.0; 64];
         for (slot, param) in params.iter_mut().zip(program.params()) {
@@ -98,7 +119,11 @@ impl Case {
             shaders,
             settings,
             params,
-            center: if plane { [x as f32, y as f32] } else { [0.0; 2] },
+            center: if plane {
+                [x as f32, y as f32]
+            } else {
+                [0.0; 2]
+            },
             height: picture.setting("height").map_or(2.0, |h| h[0] as f32),
         })
     }
@@ -122,10 +147,16 @@ fn twin(picture: &Picture, text: &str) -> Result<Module, String> {
     if let Some(error) = error {
         return Err(error);
     }
-    let Sources { entry, shared, math } = Sources::get();
+    let Sources {
+        entry,
+        shared,
+        math,
+    } = Sources::get();
     let sources = vec![picture.scene.module(), &by_hand, entry, shared, math];
     let mut linker = Linker::new(sources);
-    linker.link_entry_points(2, &mut ByHand).map_err(|e| format!("{e:?}"))?;
+    linker
+        .link_entry_points(2, &mut ByHand)
+        .map_err(|e| format!("{e:?}"))?;
     let mut module = linker.out;
     naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
     Validator::new(ValidationFlags::all(), Capabilities::empty())

@@ -20,16 +20,30 @@ impl Difference {
             max = max.max(apart);
             sum += f64::from(apart);
             over += f64::from(apart > 2);
-            squares += p[..3].iter().zip(q).map(|(x, y)| f64::from(x.abs_diff(*y)).powi(2)).sum::<f64>();
+            squares += p[..3]
+                .iter()
+                .zip(q)
+                .map(|(x, y)| f64::from(x.abs_diff(*y)).powi(2))
+                .sum::<f64>();
         }
         let pixels = (a.len() / 4) as f64;
         let mean_square = squares / (3.0 * pixels);
-        Self { max, mean: sum / pixels, share: over / pixels, psnr: 10.0 * (255.0 * 255.0 / mean_square).log10() }
+        Self {
+            max,
+            mean: sum / pixels,
+            share: over / pixels,
+            psnr: 10.0 * (255.0 * 255.0 / mean_square).log10(),
+        }
     }
 }
 
 fn distance(p: &[u8], q: &[u8]) -> u8 {
-    p[..3].iter().zip(q).map(|(x, y)| x.abs_diff(*y)).max().unwrap_or(0)
+    p[..3]
+        .iter()
+        .zip(q)
+        .map(|(x, y)| x.abs_diff(*y))
+        .max()
+        .unwrap_or(0)
 }
 
 /// The difference of two pictures as a picture: white where they agree, black from 64 on.
@@ -38,5 +52,8 @@ pub fn picture(a: &[u8], b: &[u8]) -> Vec<u8> {
         let grey = 255 - distance(p, q).min(63) * 4;
         [grey, grey, grey, 255]
     };
-    a.chunks_exact(4).zip(b.chunks_exact(4)).flat_map(pixel).collect()
+    a.chunks_exact(4)
+        .zip(b.chunks_exact(4))
+        .flat_map(pixel)
+        .collect()
 }

@@ -23,7 +23,10 @@ use cases::{CASES, Case, Prepared, TWIN};
 use compare::Difference;
 use stage::{Canvas, Stage};
 
-const PIPELINES: [(Pipeline, &str); 2] = [(Pipeline::Compute, "compute"), (Pipeline::Fragment, "fragment")];
+const PIPELINES: [(Pipeline, &str); 2] = [
+    (Pipeline::Compute, "compute"),
+    (Pipeline::Fragment, "fragment"),
+];
 
 /// A timed submission on hardware should take this long at least, so that a clock's tick and a launch do not count.
 const SHORTEST: f64 = 2e-3;
@@ -59,7 +62,9 @@ impl Options {
                     Err(never) => match never {},
                 },
                 "--size" => options.size = size(&value()?).ok_or("a size is like 1280x720")?,
-                "--samples" => options.samples = value()?.parse().map_err(|_| "--samples needs a number")?,
+                "--samples" => {
+                    options.samples = value()?.parse().map_err(|_| "--samples needs a number")?
+                }
                 "--only" => options.only = Some(value()?),
                 "--pictures" => options.pictures = Some(value()?.into()),
                 "--markdown" => options.markdown = true,
@@ -76,7 +81,10 @@ impl Options {
 fn size(text: &str) -> Option<[u32; 2]> {
     let (width, height) = text.split_once('x')?;
     let sides = [width.parse().ok()?, height.parse().ok()?];
-    sides.iter().all(|s| (1..=8192).contains(s)).then_some(sides)
+    sides
+        .iter()
+        .all(|s| (1..=8192).contains(s))
+        .then_some(sides)
 }
 
 fn main() -> ExitCode {
@@ -93,8 +101,16 @@ fn run(options: &Options) -> Result<(), String> {
     let gpu = Gpu::open(&options.adapter).map_err(|e| e.to_string())?;
     let [width, height] = options.size;
     println!("adapter: {}", gpu.adapter());
-    println!("{width}x{height}, 1 sample a pixel, median of {} frames\n", options.samples);
-    let chosen = |case: &&Case| options.only.as_ref().is_none_or(|only| case.name.contains(only.as_str()));
+    println!(
+        "{width}x{height}, 1 sample a pixel, median of {} frames\n",
+        options.samples
+    );
+    let chosen = |case: &&Case| {
+        options
+            .only
+            .as_ref()
+            .is_none_or(|only| case.name.contains(only.as_str()))
+    };
     let mut frames = Table::new(options.markdown, &FRAME_COLUMNS);
     let mut pictures = Table::new(options.markdown, &PICTURE_COLUMNS);
     let mut clock = false;
@@ -103,10 +119,21 @@ fn run(options: &Options) -> Result<(), String> {
         let prepared = case.prepare().map_err(|e| format!("{}: {e}", case.name))?;
         let canvas = Canvas::new(&gpu, &prepared, options.size).map_err(|e| e.to_string())?;
         clock = canvas.has_clock();
-        measure(case, &prepared, &canvas, options, &mut frames, &mut pictures)
-            .map_err(|e| format!("{}: {e}", case.name))?;
+        measure(
+            case,
+            &prepared,
+            &canvas,
+            options,
+            &mut frames,
+            &mut pictures,
+        )
+        .map_err(|e| format!("{}: {e}", case.name))?;
     }
-    let source = if clock { "timestamps of the device" } else { "wall time of a submission" };
+    let source = if clock {
+        "timestamps of the device"
+    } else {
+        "wall time of a submission"
+    };
     println!("Frame time ({source})\n");
     frames.print();
     println!("\nDifference of the pictures, 8-bit sRGB, compute\n");
@@ -127,7 +154,14 @@ const FRAME_COLUMNS: [&str; 10] = [
     "pipeline made in, ms: accurate, fast, twin",
 ];
 
-const PICTURE_COLUMNS: [&str; 6] = ["formula", "compared", "max", "mean", "pixels off by > 2", "PSNR, dB"];
+const PICTURE_COLUMNS: [&str; 6] = [
+    "formula",
+    "compared",
+    "max",
+    "mean",
+    "pixels off by > 2",
+    "PSNR, dB",
+];
 
 fn measure(
     case: &Case,
@@ -145,7 +179,10 @@ fn measure(
             .iter()
             .map(|shader| canvas.stage(&shader.module, pipeline))
             .collect::<Result<_, _>>()?;
-        let drawn: Vec<Vec<u8>> = stages.iter().map(|stage| canvas.picture(stage)).collect::<Result<_, _>>()?;
+        let drawn: Vec<Vec<u8>> = stages
+            .iter()
+            .map(|stage| canvas.picture(stage))
+            .collect::<Result<_, _>>()?;
         if pipeline == Pipeline::Compute {
             compare_all(case, &names, &drawn, pictures);
             if let Some(folder) = &options.pictures {
@@ -154,8 +191,11 @@ fn measure(
         }
         let times = medians(canvas, &stages, options.samples)?;
         let time = |name| place(name).map(|k| times[k]);
-        let built: Vec<String> =
-            stages.iter().take(3).map(|stage| format!("{:.0}", stage.built * 1e3)).collect();
+        let built: Vec<String> = stages
+            .iter()
+            .take(3)
+            .map(|stage| format!("{:.0}", stage.built * 1e3))
+            .collect();
         let twin = time(TWIN);
         let ratio = |name| match (time(name), twin) {
             (Some(ours), Some(twin)) => format!("{:.2}", ours / twin),
@@ -179,7 +219,15 @@ fn measure(
 }
 
 fn significant(x: f64) -> String {
-    let digits = if x >= 100.0 { 0 } else if x >= 10.0 { 1 } else if x >= 1.0 { 2 } else { 4 };
+    let digits = if x >= 100.0 {
+        0
+    } else if x >= 10.0 {
+        1
+    } else if x >= 1.0 {
+        2
+    } else {
+        4
+    };
     format!("{x:.digits$}")
 }
 
@@ -192,7 +240,11 @@ fn medians(canvas: &Canvas, stages: &[Stage], samples: usize) -> Result<Vec<f64>
         while start.elapsed() < WARM_UP {
             once = canvas.time(stage, 1)?;
         }
-        let enough = if canvas.has_clock() { (SHORTEST / once.max(1e-6)).ceil() } else { 1.0 };
+        let enough = if canvas.has_clock() {
+            (SHORTEST / once.max(1e-6)).ceil()
+        } else {
+            1.0
+        };
         repeats.push(enough.clamp(1.0, 64.0) as u32);
     }
     let mut all = vec![Vec::new(); stages.len()];
@@ -236,11 +288,19 @@ fn write_all(
     std::fs::create_dir_all(folder)?;
     let write = |name: String, pixels: &[u8]| {
         let path = folder.join(format!("{case}-{name}.png"));
-        write_png(&path, Size { width, height }, &Metadata::default(), |sink| Ok(sink.rows(pixels)?))
+        write_png(
+            &path,
+            Size { width, height },
+            &Metadata::default(),
+            |sink| Ok(sink.rows(pixels)?),
+        )
     };
     for (name, pixels) in names.iter().zip(drawn) {
         write((*name).to_owned(), pixels)?;
-        write(format!("{name}-difference"), &compare::picture(&drawn[0], pixels))?;
+        write(
+            format!("{name}-difference"),
+            &compare::picture(&drawn[0], pixels),
+        )?;
     }
     Ok(())
 }
@@ -253,7 +313,10 @@ struct Table {
 
 impl Table {
     fn new(markdown: bool, columns: &[&str]) -> Self {
-        Self { markdown, rows: vec![columns.iter().map(|c| (*c).to_owned()).collect()] }
+        Self {
+            markdown,
+            rows: vec![columns.iter().map(|c| (*c).to_owned()).collect()],
+        }
     }
 
     fn row(&mut self, cells: Vec<String>) {
@@ -263,7 +326,13 @@ impl Table {
     fn print(&self) {
         let columns = self.rows[0].len();
         let widths: Vec<usize> = (0..columns)
-            .map(|k| self.rows.iter().map(|row| row[k].chars().count()).max().unwrap_or(0))
+            .map(|k| {
+                self.rows
+                    .iter()
+                    .map(|row| row[k].chars().count())
+                    .max()
+                    .unwrap_or(0)
+            })
             .collect();
         for (line, row) in self.rows.iter().enumerate() {
             if self.markdown {
@@ -272,8 +341,11 @@ impl Table {
                     println!("|{}", " --- |".repeat(columns));
                 }
             } else {
-                let cells: Vec<String> =
-                    row.iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
+                let cells: Vec<String> = row
+                    .iter()
+                    .zip(&widths)
+                    .map(|(cell, width)| format!("{cell:<width$}"))
+                    .collect();
                 println!("{}", cells.join("  ").trim_end());
             }
         }

@@ -78,7 +78,11 @@ impl Canvas {
             }),
             target: device.create_texture(&wgpu::TextureDescriptor {
                 label: None,
-                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+                size: wgpu::Extent3d {
+                    width,
+                    height,
+                    depth_or_array_layers: 1,
+                },
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
@@ -101,7 +105,10 @@ impl Canvas {
         let source = wgpu::ShaderSource::Naga(Cow::Owned(module.clone()));
         let start = Instant::now();
         let pass = self.gpu.guarded("compiling a pipeline", || {
-            let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+            let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: None,
+                source,
+            });
             match pipeline {
                 Pipeline::Compute => Pass::Compute(self.compute(&shader)),
                 Pipeline::Fragment => Pass::Fragment(self.fragment(&shader)),
@@ -109,70 +116,92 @@ impl Canvas {
         })?;
         let built = start.elapsed().as_secs_f64();
         let bindings = self.gpu.guarded("binding", || self.bind(&pass))?;
-        Ok(Stage { pass, bindings, built })
+        Ok(Stage {
+            pass,
+            bindings,
+            built,
+        })
     }
 
     fn layout(&self, pipeline: Pipeline) -> wgpu::BindGroupLayout {
         let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry {
             binding,
             visibility,
-            ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
+            ty: wgpu::BindingType::Buffer {
+                ty,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
             count: None,
         };
         let stages = match pipeline {
             Pipeline::Compute => wgpu::ShaderStages::COMPUTE,
             Pipeline::Fragment => wgpu::ShaderStages::VERTEX_FRAGMENT,
         };
-        let mut entries: Vec<_> =
-            (0..3).map(|k| entry(k, stages, wgpu::BufferBindingType::Uniform)).collect();
+        let mut entries: Vec<_> = (0..3)
+            .map(|k| entry(k, stages, wgpu::BufferBindingType::Uniform))
+            .collect();
         if pipeline == Pipeline::Compute {
-            entries.push(entry(3, stages, wgpu::BufferBindingType::Storage { read_only: false }));
+            entries.push(entry(
+                3,
+                stages,
+                wgpu::BufferBindingType::Storage { read_only: false },
+            ));
         }
-        let descriptor = wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries };
+        let descriptor = wgpu::BindGroupLayoutDescriptor {
+            label: None,
+            entries: &entries,
+        };
         self.gpu.device().create_bind_group_layout(&descriptor)
     }
 
     fn pipeline_layout(&self, pipeline: Pipeline) -> wgpu::PipelineLayout {
-        self.gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: None,
-            bind_group_layouts: &[Some(&self.layout(pipeline))],
-            immediate_size: 0,
-        })
+        self.gpu
+            .device()
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: None,
+                bind_group_layouts: &[Some(&self.layout(pipeline))],
+                immediate_size: 0,
+            })
     }
 
     fn compute(&self, shader: &wgpu::ShaderModule) -> wgpu::ComputePipeline {
-        self.gpu.device().create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: None,
-            layout: Some(&self.pipeline_layout(Pipeline::Compute)),
-            module: shader,
-            entry_point: Some("compute_main"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        })
+        self.gpu
+            .device()
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: None,
+                layout: Some(&self.pipeline_layout(Pipeline::Compute)),
+                module: shader,
+                entry_point: Some("compute_main"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            })
     }
 
     fn fragment(&self, shader: &wgpu::ShaderModule) -> wgpu::RenderPipeline {
-        self.gpu.device().create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: None,
-            layout: Some(&self.pipeline_layout(Pipeline::Fragment)),
-            vertex: wgpu::VertexState {
-                module: shader,
-                entry_point: Some("vertex_main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: shader,
-                entry_point: Some("fragment_main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[Some(FORMAT.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
+        self.gpu
+            .device()
+            .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: None,
+                layout: Some(&self.pipeline_layout(Pipeline::Fragment)),
+                vertex: wgpu::VertexState {
+                    module: shader,
+                    entry_point: Some("vertex_main"),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    buffers: &[],
+                },
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: None,
+                multisample: wgpu::MultisampleState::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: shader,
+                    entry_point: Some("fragment_main"),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    targets: &[Some(FORMAT.into())],
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
     }
 
     fn bind(&self, pass: &Pass) -> wgpu::BindGroup {
@@ -186,19 +215,26 @@ impl Canvas {
         };
         let entries: Vec<_> = (0..)
             .zip(buffers)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
             .collect();
-        self.gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &self.layout(pipeline),
-            entries: &entries,
-        })
+        self.gpu
+            .device()
+            .create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &self.layout(pipeline),
+                entries: &entries,
+            })
     }
 
     /// Draws the picture `repeats` times in one submission, and gives the seconds for one of them: by the device's
     /// clock, or else by ours from the submission to its end.
     pub fn time(&self, stage: &Stage, repeats: u32) -> Result<f64, Error> {
-        let encoder = self.gpu.guarded("recording", || self.record(stage, repeats))?;
+        let encoder = self
+            .gpu
+            .guarded("recording", || self.record(stage, repeats))?;
         let start = Instant::now();
         let submission = self.gpu.queue().submit([encoder.finish()]);
         self.gpu.wait("drawing", submission)?;
@@ -211,15 +247,20 @@ impl Canvas {
     }
 
     fn record(&self, stage: &Stage, repeats: u32) -> wgpu::CommandEncoder {
-        let mut encoder = self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = self
+            .gpu
+            .device()
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         match &stage.pass {
             Pass::Compute(pipeline) => {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                     label: None,
-                    timestamp_writes: self.clock.as_ref().map(|clock| wgpu::ComputePassTimestampWrites {
-                        query_set: &clock.queries,
-                        beginning_of_pass_write_index: Some(0),
-                        end_of_pass_write_index: Some(1),
+                    timestamp_writes: self.clock.as_ref().map(|clock| {
+                        wgpu::ComputePassTimestampWrites {
+                            query_set: &clock.queries,
+                            beginning_of_pass_write_index: Some(0),
+                            end_of_pass_write_index: Some(1),
+                        }
                     }),
                 });
                 pass.set_pipeline(pipeline);
@@ -229,7 +270,9 @@ impl Canvas {
                 }
             }
             Pass::Fragment(pipeline) => {
-                let view = self.target.create_view(&wgpu::TextureViewDescriptor::default());
+                let view = self
+                    .target
+                    .create_view(&wgpu::TextureViewDescriptor::default());
                 let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     label: None,
                     color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -241,10 +284,12 @@ impl Canvas {
                             store: wgpu::StoreOp::Store,
                         },
                     })],
-                    timestamp_writes: self.clock.as_ref().map(|clock| wgpu::RenderPassTimestampWrites {
-                        query_set: &clock.queries,
-                        beginning_of_pass_write_index: Some(0),
-                        end_of_pass_write_index: Some(1),
+                    timestamp_writes: self.clock.as_ref().map(|clock| {
+                        wgpu::RenderPassTimestampWrites {
+                            query_set: &clock.queries,
+                            beginning_of_pass_write_index: Some(0),
+                            end_of_pass_write_index: Some(1),
+                        }
                     }),
                     ..Default::default()
                 });
@@ -294,7 +339,11 @@ impl Canvas {
         }
         self.gpu.queue().submit([encoder.finish()]);
         let padded = read(&self.gpu, &readable)?;
-        Ok(padded.chunks(stride as usize).flat_map(|line| &line[..row as usize]).copied().collect())
+        Ok(padded
+            .chunks(stride as usize)
+            .flat_map(|line| &line[..row as usize])
+            .copied()
+            .collect())
     }
 }
 
@@ -302,7 +351,9 @@ impl Clock {
     /// Software adapters have timestamps that say little; they are timed from outside.
     fn new(gpu: &Gpu) -> Option<Self> {
         let device = gpu.device();
-        if gpu.adapter().is_software() || !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+        if gpu.adapter().is_software()
+            || !device.features().contains(wgpu::Features::TIMESTAMP_QUERY)
+        {
             return None;
         }
         let buffer = |usage| {
@@ -328,7 +379,10 @@ impl Clock {
     /// Seconds between the two timestamps of the last submission.
     fn read(&self, gpu: &Gpu) -> Result<f64, Error> {
         let bytes = read(gpu, &self.readable)?;
-        let ticks: Vec<u64> = bytes.chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
+        let ticks: Vec<u64> = bytes
+            .chunks_exact(8)
+            .map(bytemuck::pod_read_unaligned)
+            .collect();
         Ok(ticks[1].saturating_sub(ticks[0]) as f64 * self.seconds)
     }
 }
@@ -341,12 +395,18 @@ fn read(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, Error> {
     });
     let submission = gpu.queue().submit([]);
     gpu.wait("reading", submission)?;
-    let failed = |reason: String| Error::Device { during: "reading", reason };
+    let failed = |reason: String| Error::Device {
+        during: "reading",
+        reason,
+    };
     receiver
         .try_recv()
         .map_err(|e| failed(e.to_string()))?
         .map_err(|e| failed(e.to_string()))?;
-    let view = buffer.slice(..).get_mapped_range().map_err(|e| failed(e.to_string()))?;
+    let view = buffer
+        .slice(..)
+        .get_mapped_range()
+        .map_err(|e| failed(e.to_string()))?;
     let bytes = view.to_vec();
     drop(view);
     buffer.unmap();
