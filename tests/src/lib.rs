@@ -5,3 +5,4 @@
 pub mod accuracy;
 pub mod corpus;
 pub mod holds;
+pub mod units;

@@ -184,7 +184,7 @@ impl Lowering<'_, '_, '_> {
         let name = match self.graph.name(id) {
             // the result of a function needs no name in the function itself
             Some(name) if self.body.function.name.as_deref() == Some(name) => return,
-            Some(name) => name.to_owned(),
+            Some(name) => super::identifier(name),
             None if below + 1 >= MAX_UNNAMED_DEPTH => format!("t{}", id.index()),
             None => return,
         };
