@@ -76,8 +76,9 @@ pub fn standalone(
 
 /// Names of the functions for value, gradient and derivative.
 fn function_names(formula: &str) -> [String; 3] {
+    let formula = crate::lower::identifier(formula);
     [
-        formula.to_owned(),
+        formula.clone(),
         format!("{formula}_gradient"),
         format!("{formula}_derivative"),
     ]
@@ -107,7 +108,7 @@ fn arguments(
     };
     let mut add = |name: &str, ty: Handle<Type>, described: String, list: &mut Vec<_>| {
         list.push(FunctionArgument {
-            name: Some(name.to_owned()),
+            name: Some(crate::lower::identifier(name)),
             ty,
             binding: None,
         });

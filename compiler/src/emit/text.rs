@@ -64,6 +64,12 @@ pub fn write(
 fn write_glsl(module: &Module, info: &ModuleInfo) -> Result<String, String> {
     let options = glsl::Options {
         version: glsl::Version::Desktop(450),
+        binding_map: module
+            .global_variables
+            .iter()
+            .filter_map(|(_, global)| global.binding)
+            .filter_map(|at| Some((at, u8::try_from(at.binding).ok()?)))
+            .collect(),
         ..glsl::Options::default()
     };
     let entry = module

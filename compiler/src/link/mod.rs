@@ -8,5 +8,5 @@ mod import;
 mod linker;
 mod sources;
 
-pub use linker::{LinkError, Linker, Provider};
+pub use linker::{LinkError, Linker, Provider, is_stub};
 pub use sources::{Sources, entry_module, math_module, parse_wgsl, shared_module};

@@ -184,7 +184,7 @@ impl Lowering<'_, '_, '_> {
         let name = match self.graph.name(id) {
             // the result of a function needs no name in the function itself
             Some(name) if self.body.function.name.as_deref() == Some(name) => return,
-            Some(name) => name.to_owned(),
+            Some(name) => super::identifier(name),
             None if below + 1 >= MAX_UNNAMED_DEPTH => format!("t{}", id.index()),
             None => return,
         };
@@ -400,6 +400,8 @@ impl Lowering<'_, '_, '_> {
             (Prim::Add | Prim::Sub, &[a, b]) => {
                 Ok(self.sum(prim, (a, is_complex[0]), (b, is_complex[1])))
             }
+            // a square has no cancelling component, a product may
+            (Prim::Mul, &[a, b]) if a == b => self.library("complex_square", vec![a]),
             (Prim::Mul, &[a, b]) if !(is_complex[0] && is_complex[1]) => {
                 Ok(self.binary(BinaryOperator::Multiply, a, b))
             }

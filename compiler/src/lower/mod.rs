@@ -2,9 +2,11 @@
 
 mod body;
 mod function;
+mod identifier;
 mod types;
 
 pub use function::{Argument, Interface, Leaves, Output, lower};
+pub use identifier::identifier;
 pub use types::NagaTypes;
 
 use crate::link::LinkError;

@@ -5,6 +5,7 @@ use naga::{Module, ScalarKind, TypeInner};
 
 use super::demand::Demand;
 use super::{ModuleError, validate};
+use crate::formula::Formula;
 use crate::link::{Linker, Sources};
 use crate::lower::Precision;
 use crate::program::{Picture, SettingValue};
@@ -55,13 +56,21 @@ impl SceneModule {
     /// # Errors
     /// As [`Self::new`].
     pub fn link(picture: &Picture, precision: Precision) -> Result<Module, ModuleError> {
+        Self::splice(picture.scene.module(), &picture.formula, precision)
+    }
+
+    /// [`Self::link`] for any template.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn splice(
+        template: &Module,
+        formula: &Formula,
+        precision: Precision,
+    ) -> Result<Module, ModuleError> {
         let sources = Sources::get();
-        let template = picture.scene.module();
         let mut linker = Linker::new(vec![template, sources.entry, sources.shared, sources.math]);
-        let mut demand = Demand {
-            formula: &picture.formula,
-            precision,
-        };
+        let mut demand = Demand { formula, precision };
         linker.link_entry_points(1, &mut demand)?;
         Ok(linker.out)
     }

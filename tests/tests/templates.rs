@@ -1,0 +1,456 @@
+//! Scene templates and shader libraries: each valid by itself, of one convention, without finite differences.
+
+use std::collections::BTreeMap;
+
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::{Function, Module, ScalarKind, Statement, TypeInner, VectorSize};
+use pullback_compiler::link::{Sources, is_stub};
+use pullback_compiler::scene::{Scene, SettingKind, Space, scenes};
+use pullback_tests::corpus::{Source, files, read, root};
+use pullback_tests::units::{FIELD_STUBS, evaluations, finite_differences};
+
+fn parse(name: &str, text: &str) -> Module {
+    naga::front::wgsl::parse_str(text)
+        .unwrap_or_else(|error| panic!("{}", error.emit_to_string_with_path(text, name)))
+}
+
+fn validate(name: &str, module: &Module) -> ModuleInfo {
+    Validator::new(ValidationFlags::all(), Capabilities::default())
+        .validate(module)
+        .unwrap_or_else(|error| panic!("{name}: {error:?}"))
+}
+
+/// Every scene, the entry points and the evaluation, each with its parsed module.
+fn templates() -> Vec<(String, Module)> {
+    let mut sources = files("compiler/shaders/scenes", "wgsl");
+    for name in ["shared/entry", "eval"] {
+        let text = read(&root().join(format!("compiler/shaders/{name}.wgsl")));
+        sources.push(Source {
+            name: name.into(),
+            text,
+        });
+    }
+    sources
+        .into_iter()
+        .map(|s| (s.name.clone(), parse(&s.name, &s.text)))
+        .collect()
+}
+
+#[test]
+fn every_template_is_valid_by_itself() {
+    for (name, module) in templates() {
+        validate(&name, &module);
+    }
+}
+
+#[test]
+fn the_libraries_are_valid_and_whole() {
+    let sources = Sources::get();
+    for (name, module, folder) in [
+        ("the number library", sources.math, "math"),
+        ("the drawing library", sources.shared, "shared"),
+    ] {
+        validate(name, module);
+        // every function of every file of the folder is in the text that the compiler carries
+        for source in files(&format!("compiler/shaders/{folder}"), "wgsl") {
+            if source.name == "entry" {
+                continue;
+            }
+            for line in source.text.lines().filter_map(|l| l.strip_prefix("fn ")) {
+                let function = line.split('(').next().unwrap_or_default();
+                let has = |f: &Function| f.name.as_deref() == Some(function);
+                let found = module.functions.iter().any(|(_, f)| has(f));
+                assert!(
+                    found,
+                    "`{function}` of {folder}/{} is not in {name}",
+                    source.name
+                );
+            }
+        }
+        for (_, function) in module.functions.iter() {
+            assert!(
+                !is_stub(function),
+                "{name} holds a stub {:?}",
+                function.name
+            );
+        }
+    }
+}
+
+#[test]
+fn every_template_belongs_to_a_scene() {
+    let known: Vec<&str> = scenes().iter().map(|s| s.name).collect();
+    for source in files("compiler/shaders/scenes", "wgsl") {
+        assert!(
+            known.contains(&source.name.as_str()),
+            "no scene for {}.wgsl",
+            source.name
+        );
+    }
+    for scene in scenes() {
+        let text = read(&root().join(format!("compiler/shaders/scenes/{}.wgsl", scene.name)));
+        assert_eq!(scene.template, text, "the template of {}", scene.name);
+    }
+}
+
+/// A function's argument and result types as text.
+fn signature(module: &Module, function: &Function) -> String {
+    let ty = |ty: naga::Handle<naga::Type>| match &module.types[ty] {
+        naga::Type {
+            name: Some(name), ..
+        } => name.clone(),
+        ty => format!("{:?}", ty.inner),
+    };
+    let arguments: Vec<String> = function.arguments.iter().map(|a| ty(a.ty)).collect();
+    let result = function.result.as_ref().map(|r| ty(r.ty));
+    format!("({}) -> {result:?}", arguments.join(", "))
+}
+
+#[test]
+fn stubs_are_of_the_compiler_or_have_their_twin_in_a_library() {
+    let sources = Sources::get();
+    let mut known: BTreeMap<String, String> = BTreeMap::new();
+    for module in [sources.math, sources.shared] {
+        for (_, function) in module.functions.iter() {
+            known.insert(
+                function.name.clone().unwrap_or_default(),
+                signature(module, function),
+            );
+        }
+    }
+    for (name, module) in templates() {
+        for (_, function) in module.functions.iter().filter(|(_, f)| is_stub(f)) {
+            let title = function.name.clone().unwrap_or_default();
+            if FIELD_STUBS.contains(&title.as_str())
+                || ["shade", "evaluate"].contains(&title.as_str())
+            {
+                continue;
+            }
+            let found = signature(&module, function);
+            match known.get(&title) {
+                Some(wanted) => assert_eq!(&found, wanted, "the stub `{title}` of {name}"),
+                None => panic!("the stub `{title}` of {name} stands for nothing"),
+            }
+        }
+    }
+}
+
+#[test]
+fn demands_have_the_contract_s_signatures() {
+    // docs/architecture.md, "Shaders, and the linker by name"
+    let allowed: BTreeMap<&str, Vec<&str>> = BTreeMap::from([
+        (
+            "field",
+            vec!["fn field(p: vec2f) -> f32", "fn field(p: vec3f) -> f32"],
+        ),
+        (
+            "field_grad",
+            vec![
+                "fn field_grad(p: vec2f) -> vec3f",
+                "fn field_grad(p: vec3f) -> vec4f",
+            ],
+        ),
+        (
+            "field_ray",
+            vec!["fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f"],
+        ),
+        ("map", vec!["fn map(z: vec2f) -> vec2f"]),
+        ("map_jet", vec!["fn map_jet(z: vec2f) -> Jet"]),
+    ]);
+    for scene in scenes() {
+        let mut demands = 0;
+        for line in scene.template.lines().filter(|l| l.starts_with("fn ")) {
+            let name = line[3..].split('(').next().unwrap_or_default();
+            let Some(forms) = allowed.get(name) else {
+                continue;
+            };
+            demands += 1;
+            let declared = line.split('{').next().unwrap_or_default().trim();
+            assert!(forms.contains(&declared), "{}: {declared}", scene.name);
+            let space = if declared.contains("vec2f) -> f32") || declared.contains("(p: vec2f)") {
+                Space::Plane
+            } else if declared.contains("(z: vec2f)") {
+                Space::Complex
+            } else {
+                Space::Space
+            };
+            assert_eq!(space, scene.space, "{}: {declared}", scene.name);
+        }
+        assert!(demands > 0, "{} asks for nothing", scene.name);
+    }
+}
+
+#[test]
+fn no_hardware_derivatives_no_hidden_state() {
+    let mut modules = templates();
+    modules.push(("math".into(), Sources::get().math.clone()));
+    modules.push(("shared".into(), Sources::get().shared.clone()));
+    for (name, module) in modules {
+        let entries = module.entry_points.iter().map(|e| &e.function);
+        for function in module.functions.iter().map(|(_, f)| f).chain(entries) {
+            let derives = |e: &naga::Expression| matches!(e, naga::Expression::Derivative { .. });
+            assert!(
+                !function.expressions.iter().any(|(_, e)| derives(e)),
+                "{name}: a hardware derivative in {:?}",
+                function.name
+            );
+            assert!(
+                !function.body.iter().any(|s| matches!(s, Statement::Kill)),
+                "{name}: `discard` in {:?}",
+                function.name
+            );
+        }
+        assert!(module.overrides.is_empty(), "{name} has an override");
+        for (_, global) in module.global_variables.iter() {
+            let hidden = matches!(
+                global.space,
+                naga::AddressSpace::Private | naga::AddressSpace::WorkGroup
+            );
+            assert!(!hidden, "{name}: `{:?}` is hidden state", global.name);
+        }
+    }
+}
+
+#[test]
+fn plane_and_complex_scenes_evaluate_once() {
+    for scene in scenes().iter().filter(|s| s.space != Space::Space) {
+        let module = parse(scene.name, scene.template);
+        let count = evaluations(&module, "shade");
+        assert_eq!(
+            count,
+            Some(1),
+            "evaluations of the formula per sample in {}",
+            scene.name
+        );
+    }
+}
+
+/// A scene that evaluates once has nothing to take differences of; the others go through the analysis.
+#[test]
+fn no_template_takes_a_finite_difference() {
+    for scene in scenes() {
+        let module = parse(scene.name, scene.template);
+        if evaluations(&module, "shade") == Some(1) {
+            continue;
+        }
+        let found = finite_differences(&module);
+        assert!(found.is_empty(), "{}:\n{}", scene.name, found.join("\n"));
+    }
+}
+
+/// A template with a body of `shade` after the usual declarations.
+fn with_shade(stub: &str, body: &str) -> Module {
+    let view = "struct View { center: vec2f, size: vec2f, tile: vec2f, pixel: f32, time: f32 }
+        @group(0) @binding(0) var<uniform> view: View;";
+    let text = format!("{view}\n{stub}\nfn shade(pixel: vec2f) -> vec4f {{\n{body}\n}}");
+    let module = parse("a bad template", &text);
+    validate("a bad template", &module);
+    module
+}
+
+#[test]
+fn finite_differences_are_found() {
+    let field = "fn field(p: vec2f) -> f32 { return 0.0; }";
+    let check = |why: &str, stub: &str, body: &str| {
+        let found = finite_differences(&with_shade(stub, body));
+        assert!(!found.is_empty(), "{why} is not seen");
+    };
+    check(
+        "a constant step",
+        field,
+        "let d = field(pixel + vec2f(0.01, 0.0)) - field(pixel); return vec4f(d / 0.01);",
+    );
+    check(
+        "a factor",
+        field,
+        "let d = field(pixel + vec2f(0.01, 0.0)) - field(pixel); return vec4f(d * 100.0);",
+    );
+    check(
+        "the pixel",
+        field,
+        "let h = view.pixel; return vec4f((field(pixel + vec2f(h, 0.0)) - field(pixel - vec2f(h, 0.0))) / (2.0 * h));",
+    );
+    check(
+        "a value per length",
+        field,
+        "return vec4f(field(pixel) / view.pixel);",
+    );
+    check(
+        "one over the step",
+        field,
+        "let s = 1.0 / view.pixel; let a = field(pixel); let b = field(pixel + vec2f(view.pixel)); return vec4f(a * s - b * s);",
+    );
+    check(
+        "a loop that keeps the last value",
+        field,
+        "var last = 0.0; var sum = 0.0;
+         for (var k = 0; k < 4; k++) { let f = field(pixel * f32(k)); sum += abs(f - last) * 7.0; last = f; }
+         return vec4f(sum);",
+    );
+    check(
+        "a helper function",
+        "fn field(p: vec2f) -> f32 { return 0.0; }
+         fn at(p: vec2f) -> f32 { return field(p); }
+         fn slope(a: f32, b: f32, h: f32) -> f32 { return (b - a) / h; }",
+        "return vec4f(slope(at(pixel), at(pixel + 0.1), 0.1));",
+    );
+    check(
+        "a difference of gradients",
+        "fn field_grad(p: vec2f) -> vec3f { return vec3f(); }",
+        "let a = field_grad(pixel); let b = field_grad(pixel + 0.1); return vec4f((b.xy - a.xy) / 0.1, 0.0, 1.0);",
+    );
+    check(
+        "a structure",
+        "struct Sample { t: f32, value: f32 }
+         fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f { return vec2f(); }
+         fn sample(t: f32) -> Sample { return Sample(t, field_ray(vec3f(), vec3f(1.0), t).x); }",
+        "let a = sample(pixel.x); let b = sample(pixel.y); return vec4f((b.value - a.value) / (b.t - a.t));",
+    );
+}
+
+#[test]
+fn what_is_no_finite_difference_is_not_found() {
+    let check = |why: &str, stub: &str, body: &str| {
+        let found = finite_differences(&with_shade(stub, body));
+        assert!(found.is_empty(), "{why}: {found:?}");
+    };
+    let gradient = "fn field_grad(p: vec2f) -> vec3f { return vec3f(); }";
+    check(
+        "a distance estimate",
+        gradient,
+        "let jet = field_grad(pixel); return vec4f(abs(jet.z - 0.5) / length(jet.xy) / view.pixel);",
+    );
+    check(
+        "a change per pixel",
+        gradient,
+        "let jet = field_grad(pixel); return vec4f(jet.z / (length(jet.xy) * view.pixel));",
+    );
+    check(
+        "the secant method",
+        "fn field(p: vec2f) -> f32 { return 0.0; }",
+        "let a = field(pixel); let b = field(pixel + 0.1); return vec4f(a / (a - b) * view.pixel);",
+    );
+    check(
+        "a projected gradient",
+        gradient,
+        "let jet = field_grad(pixel); let n = normalize(pixel); return vec4f(jet.xy - n * dot(jet.xy, n), 0.0, 1.0) * 0.5;",
+    );
+}
+
+/// Members of a structure with their types.
+fn members(module: &Module, name: &str) -> Option<Vec<(String, TypeInner, u32)>> {
+    let (_, ty) = module
+        .types
+        .iter()
+        .find(|(_, t)| t.name.as_deref() == Some(name))?;
+    let TypeInner::Struct { members, .. } = &ty.inner else {
+        return None;
+    };
+    let of = |m: &naga::StructMember| {
+        (
+            m.name.clone().unwrap_or_default(),
+            module.types[m.ty].inner.clone(),
+            m.offset,
+        )
+    };
+    Some(members.iter().map(of).collect())
+}
+
+#[test]
+fn the_view_is_the_same_everywhere() {
+    let entry = members(&Sources::get().entry.clone(), "View").expect("entry.wgsl has a View");
+    assert_eq!(entry.len(), 8);
+    for scene in scenes() {
+        let view = members(&parse(scene.name, scene.template), "View");
+        assert_eq!(view.as_ref(), Some(&entry), "the View of {}", scene.name);
+    }
+}
+
+#[test]
+fn bindings_are_the_contract_s() {
+    for scene in scenes() {
+        let module = parse(scene.name, scene.template);
+        for (_, global) in module.global_variables.iter() {
+            let binding = global.binding.expect("a binding");
+            let name = global.name.as_deref().unwrap_or_default();
+            let wanted = match name {
+                "view" => (0, 0),
+                "params" => (0, 1),
+                "settings" => (0, 2),
+                other => panic!("{}: the global `{other}`", scene.name),
+            };
+            assert_eq!(
+                (binding.group, binding.binding),
+                wanted,
+                "{}: `{name}`",
+                scene.name
+            );
+        }
+    }
+}
+
+/// Whether a member's type can hold a setting of this kind.
+fn holds(ty: &TypeInner, kind: SettingKind) -> bool {
+    let vector = |size| match ty {
+        TypeInner::Vector {
+            size: found,
+            scalar,
+        } => *found == size && scalar.kind == ScalarKind::Float,
+        _ => false,
+    };
+    let scalar =
+        |kinds: &[ScalarKind]| matches!(ty, TypeInner::Scalar(s) if kinds.contains(&s.kind));
+    match kind {
+        SettingKind::Real => scalar(&[ScalarKind::Float]),
+        SettingKind::Integer => scalar(&[ScalarKind::Uint, ScalarKind::Sint]),
+        SettingKind::Choice(_) => scalar(&[ScalarKind::Uint]),
+        SettingKind::Vec2 => vector(VectorSize::Bi),
+        SettingKind::Vec3 => vector(VectorSize::Tri),
+    }
+}
+
+/// What is wrong with the settings of a scene, if anything.
+fn settings_of(scene: &Scene) -> Result<(), String> {
+    let module = parse(scene.name, scene.template);
+    let members = members(&module, "Settings").unwrap_or_default();
+    for (name, ty, _) in &members {
+        let Some(setting) = scene.setting(name) else {
+            return Err(format!("the member `{name}` has no setting"));
+        };
+        if !holds(ty, setting.kind) {
+            return Err(format!(
+                "`{name}` is {ty:?} in the template, {:?} in the record",
+                setting.kind
+            ));
+        }
+    }
+    for setting in scene.settings {
+        let in_view = matches!(setting.name, "center" | "height") && scene.space != Space::Space;
+        if !in_view && !members.iter().any(|(name, ..)| name == setting.name) {
+            return Err(format!("the setting `{}` has no member", setting.name));
+        }
+        let doubled = scene
+            .settings
+            .iter()
+            .filter(|s| s.name == setting.name)
+            .count();
+        let (lo, hi) = setting.range;
+        let inside = setting.default.iter().all(|x| (lo..=hi).contains(x));
+        if doubled > 1 || setting.doc.is_empty() || !inside {
+            return Err(format!(
+                "`{}` is double, without words, or out of range",
+                setting.name
+            ));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn settings_and_records_agree() {
+    for scene in scenes() {
+        if let Err(problem) = settings_of(scene) {
+            panic!("{}: {problem}", scene.name);
+        }
+    }
+}
