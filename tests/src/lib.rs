@@ -3,4 +3,5 @@
 
 pub mod corpus;
 pub mod holds;
+pub mod mutate;
 pub mod units;
