@@ -82,7 +82,11 @@ pub fn parsing(bytes: &[u8]) -> Result<(), String> {
     let is_function = pullback_compiler::check::is_builtin_function;
     let parsed = pullback_grammar::parse_bytes(bytes, &is_function);
     let Ok(text) = std::str::from_utf8(bytes) else {
-        return if parsed.has_errors() { Ok(()) } else { Err("no error for what is no text".into()) };
+        return if parsed.has_errors() {
+            Ok(())
+        } else {
+            Err("no error for what is no text".into())
+        };
     };
     diagnostics(text, &parsed.diagnostics)?;
     for (id, expr, span) in parsed.file.exprs.iter() {
@@ -104,7 +108,10 @@ pub fn parsing(bytes: &[u8]) -> Result<(), String> {
     let printed = pullback_grammar::print(&parsed.file);
     let reread = again(&printed);
     if reread.has_errors() {
-        return Err(format!("what is printed has errors: {printed}\n{:?}", reread.diagnostics));
+        return Err(format!(
+            "what is printed has errors: {printed}\n{:?}",
+            reread.diagnostics
+        ));
     }
     let twice = pullback_grammar::print(&reread.file);
     if twice != printed {
@@ -115,7 +122,10 @@ pub fn parsing(bytes: &[u8]) -> Result<(), String> {
     };
     let same = again(&formatted);
     if same.has_errors() || pullback_grammar::print(&same.file) != printed {
-        return Err(format!("formatting changes the meaning:\n{formatted}\n{:?}", same.diagnostics));
+        return Err(format!(
+            "formatting changes the meaning:\n{formatted}\n{:?}",
+            same.diagnostics
+        ));
     }
     if pullback_grammar::format(&formatted, &is_function).as_ref() != Some(&formatted) {
         return Err(format!("formatting twice changes the text:\n{formatted}"));
@@ -131,14 +141,25 @@ pub fn parsing(bytes: &[u8]) -> Result<(), String> {
 pub fn compiling(bytes: &[u8], modules: bool) -> Result<(), String> {
     let answer = pullback_compiler::compile_bytes(bytes);
     let Ok(text) = std::str::from_utf8(bytes) else {
-        let refused = answer.program.is_none() && answer.diagnostics.iter().any(Diagnostic::is_error);
-        return if refused { Ok(()) } else { Err("no error for what is no text".into()) };
+        let refused =
+            answer.program.is_none() && answer.diagnostics.iter().any(Diagnostic::is_error);
+        return if refused {
+            Ok(())
+        } else {
+            Err("no error for what is no text".into())
+        };
     };
     compilation(text, &answer)?;
-    if let Some(internal) = answer.diagnostics.iter().find(|d| d.code.starts_with("internal")) {
+    if let Some(internal) = answer
+        .diagnostics
+        .iter()
+        .find(|d| d.code.starts_with("internal"))
+    {
         return Err(format!("{internal:?}"));
     }
-    let Some(program) = &answer.program else { return Ok(()) };
+    let Some(program) = &answer.program else {
+        return Ok(());
+    };
     let params: Vec<f64> = program.params().iter().map(|p| p.default).collect();
     for (k, picture) in program.pictures().iter().enumerate().take(3) {
         let formula = &picture.formula;

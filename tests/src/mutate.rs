@@ -40,13 +40,15 @@ impl Random {
 
 /// What is inserted: every sign and word of the language, and what people write instead.
 const TOKENS: [&str; 128] = [
-    "(", ")", "{", "}", "|", "||", "[", "]", ",", ";", ":", ".", "..", "…", "=", "==", "!=", "<", "<=", ">", ">=", "≤",
-    "≥", "≠", "+", "-", "*", "/", "^", "**", "!", "√", "·", "×", "÷", "−", "²", "³", "⁻¹", "₀", "'", "\"", "&&", "∧",
-    "∨", "¬", "?", "%", "&", "~", "$", "#", "//", "/*", "*/", "\n", "\r\n", "\t", " ", "\u{FEFF}", "\0", "param", "in",
-    "where", "show", "if", "then", "else", "and", "or", "not", "true", "false", "x", "y", "z", "p", "f", "g", "a", "k",
-    "π", "τ", "φ", "θ", "e", "i", "2i", "inf", "nan", "∞", "time", "pixel", "0", "1", "2", "0.5", "1e-3", "1e308", "1e999",
-    "3.", ".5", "1_0", "2e", "sin", "gamma", "log", "max", "mod", "atan2", "clamp", "mix", "length", "vec3", "dot",
-    "rotate", "sum", "grad", "diff", "xy", "real", "complex", "vec2", "bool", "levels", "domain", "surface", "height",
+    "(", ")", "{", "}", "|", "||", "[", "]", ",", ";", ":", ".", "..", "…", "=", "==", "!=", "<",
+    "<=", ">", ">=", "≤", "≥", "≠", "+", "-", "*", "/", "^", "**", "!", "√", "·", "×", "÷", "−",
+    "²", "³", "⁻¹", "₀", "'", "\"", "&&", "∧", "∨", "¬", "?", "%", "&", "~", "$", "#", "//", "/*",
+    "*/", "\n", "\r\n", "\t", " ", "\u{FEFF}", "\0", "param", "in", "where", "show", "if", "then",
+    "else", "and", "or", "not", "true", "false", "x", "y", "z", "p", "f", "g", "a", "k", "π", "τ",
+    "φ", "θ", "e", "i", "2i", "inf", "nan", "∞", "time", "pixel", "0", "1", "2", "0.5", "1e-3",
+    "1e308", "1e999", "3.", ".5", "1_0", "2e", "sin", "gamma", "log", "max", "mod", "atan2",
+    "clamp", "mix", "length", "vec3", "dot", "rotate", "sum", "grad", "diff", "xy", "real",
+    "complex", "vec2", "bool", "levels", "domain", "surface", "height",
 ];
 
 /// A text as pieces: words, numbers, blanks, and single signs.

@@ -43,7 +43,12 @@ fn options() -> Option<Options> {
         "compile" => Target::Compile,
         _ => return None,
     };
-    let mut out = Options { target, seconds: 600, seed: 1, last: None };
+    let mut out = Options {
+        target,
+        seconds: 600,
+        seed: 1,
+        last: None,
+    };
     while let Some(name) = arguments.next() {
         let value = arguments.next()?;
         match name.as_str() {
@@ -101,7 +106,9 @@ fn main() -> ExitCode {
         eprintln!("usage: fuzz parse|compile [--seconds 600] [--seed 1] [--last FILE]");
         return ExitCode::from(2);
     };
-    let worker = std::thread::Builder::new().stack_size(STACK).spawn(move || run(&options));
+    let worker = std::thread::Builder::new()
+        .stack_size(STACK)
+        .spawn(move || run(&options));
     let Some((count, found)) = worker.ok().and_then(|worker| worker.join().ok()) else {
         eprintln!("the fuzzer itself failed");
         return ExitCode::from(2);
@@ -110,7 +117,10 @@ fn main() -> ExitCode {
     match found {
         None => ExitCode::SUCCESS,
         Some((bytes, problem)) => {
-            println!("failed: {problem}\n---\n{}\n---\n{bytes:?}", String::from_utf8_lossy(&bytes));
+            println!(
+                "failed: {problem}\n---\n{}\n---\n{bytes:?}",
+                String::from_utf8_lossy(&bytes)
+            );
             ExitCode::FAILURE
         }
     }
