@@ -131,9 +131,12 @@ fn lgamma_of_positive(x: f32) -> f32 {
     return select(near, near + real_log(x - 1.0), x >= 2.5);
 }
 
-/// ψ(x) = Γ′(x)/Γ(x): NaN at the poles. Relative accuracy near the positive zero; at those left of 0 absolute.
+/// ψ(x) = Γ′(x)/Γ(x): NaN at the negative poles, ∓∞ at ±0 and where it overflows beside. Relative accuracy near the positive zero; at those left of 0 absolute.
 /// Error: 2.7 ulp for x > 0; left of 0 4.5 ulp of the larger term.
 fn real_digamma(x: f32) -> f32 {
+    if magnitude(x) < 2.9387359e-39 {
+        return make_infinity(flip_sign(x, 0x80000000u));
+    }
     if is_gamma_pole(x) || is_nan(x) || is_infinite(x) && sign_is_set(x) {
         return make_nan(x);
     }

@@ -262,7 +262,8 @@ fn real_hypot3(x: f32, y: f32, z: f32) -> f32 {
 /// The real cube root, odd: the exponent divided by three (Kahan), then Newton's iteration.
 /// Error: 0.8 ulp.
 fn real_cbrt(x: f32) -> f32 {
-    let a = magnitude(x);
+    let subnormal = magnitude(x) < 1.1754944e-38;
+    let a = select(magnitude(x), magnitude(x) * 16777216.0, subnormal);
     if a == 0.0 || !is_finite(x) {
         return x;
     }
@@ -270,7 +271,7 @@ fn real_cbrt(x: f32) -> f32 {
     for (var i = 0; i < 3; i++) {
         t += (a / (t * t) - t) * 0.33333334;
     }
-    return flip_sign(t, sign_bit(x));
+    return flip_sign(select(t, t * 0.00390625, subnormal), sign_bit(x));
 }
 
 /// a mod b for finite a ≥ 0, b > 0, exactly: long division of the significands in integers, 8 bits a step. With

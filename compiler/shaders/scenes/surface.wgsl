@@ -112,6 +112,20 @@ struct Hit {
 
 const NO_HIT: Hit = Hit(0.0, false, false);
 
+// The part of a ray inside of the box, from its entry on, so that f32 resolves it wherever the ray begins.
+struct Path {
+    ray: Ray,
+    extent: f32,  // none where the ray misses the box
+    count: u32,   // steps of a march
+}
+
+// `span` is from `box_span`; `steps` are for the diagonal of the box.
+fn path_within(ray: Ray, span: vec2f, steps: u32) -> Path {
+    let enter = max(span.x, 0.0);
+    let extent = span.y - enter;
+    return Path(Ray(ray.origin + enter * ray.direction, ray.direction), extent, step_count(extent, steps));
+}
+
 fn sample_ray(ray: Ray, t: f32) -> Sample {
     let raw = field_ray(ray.origin, ray.direction, t);
     let value = clamp(raw.x - settings.level, -LARGEST, LARGEST);
@@ -123,58 +137,81 @@ fn opposite(a: Sample, b: Sample) -> bool {
     return (a.value < 0.0) != (b.value < 0.0);
 }
 
-// The first hit on the ray between 0 and `extent`, looked for in `count` equal steps.
-fn march(ray: Ray, extent: f32, count: u32) -> Hit {
-    let step = extent / f32(count);
-    var a = sample_ray(ray, 0.0);
-    for (var k = 1u; k <= count; k++) {
-        let b = sample_ray(ray, f32(k) * step);
-        if a.valid && b.valid {
-            if opposite(a, b) || may_dip(a, b) {
-                let hit = hit_between(ray, a, b);
-                if hit.found {
-                    return hit;
-                }
-            }
-        } else if a.valid != b.valid {
-            let hit = hit_at_domain_edge(ray, a, b);
+// The first hit on a path. The inner loop only walks, so that rays side by side walk together to where each has
+// something to search, and then search together.
+fn march(path: Path) -> Hit {
+    if !(path.extent > 0.0) {
+        return NO_HIT;
+    }
+    let ray = path.ray;
+    let count = path.count;
+    let step = path.extent / f32(count);
+    var a: Sample;
+    var b: Sample;
+    var k = 0u;
+    while k <= count {
+        var promising = false;
+        while k <= count && !promising {
+            a = b;
+            b = sample_ray(ray, f32(k) * step);
+            promising = k > 0u && may_hit(a, b);
+            k++;
+        }
+        if promising {
+            let hit = search_step(ray, a, b);
             if hit.found {
                 return hit;
             }
         }
-        a = b;
     }
     return NO_HIT;
 }
 
-fn hit_between(ray: Ray, a: Sample, b: Sample) -> Hit {
-    if opposite(a, b) {
-        return refine_crossing(ray, a, b);
+// Whether the step from a to b may hold the surface.
+fn may_hit(a: Sample, b: Sample) -> bool {
+    if a.valid && b.valid {
+        return opposite(a, b) || may_dip(a, b);
     }
-    return search_dip(ray, a, b);
+    return a.valid != b.valid;
 }
 
-// One end of the step is outside the domain of f: bisect to where f ceases, then look on the valid side.
-fn hit_at_domain_edge(ray: Ray, a: Sample, b: Sample) -> Hit {
-    var good = a;
-    var bad = b.t;
+// The first hit between two samples of which `may_hit` is true.
+fn search_step(ray: Ray, a: Sample, b: Sample) -> Hit {
+    var near = a;
+    var far = b;
     if !a.valid {
-        good = b;
-        bad = a.t;
+        near = b;
+        far = a;
     }
+    if !far.valid {
+        far = last_valid(ray, near, far.t);
+    } else if !opposite(a, b) {
+        let dip = search_dip(ray, a, b);
+        if dip.touching {
+            return Hit(dip.extremum.t, true, true);
+        }
+        far = dip.extremum;
+    }
+    if opposite(near, far) {
+        return refine_crossing(ray, near, far);
+    }
+    return NO_HIT;
+}
+
+// Where f ceases to be defined between a valid sample and a bad place, by bisection from the valid side.
+fn last_valid(ray: Ray, good: Sample, bad: f32) -> Sample {
     var edge = good;
-    for (var k = 0; k < 12; k++) {
-        let middle = sample_ray(ray, 0.5 * (edge.t + bad));
+    var beyond = bad;
+    // Counted from view.zero, so that no driver unrolls what few rays need.
+    for (var k = view.zero; k < 12u; k++) {
+        let middle = sample_ray(ray, 0.5 * (edge.t + beyond));
         if middle.valid {
             edge = middle;
         } else {
-            bad = middle.t;
+            beyond = middle.t;
         }
     }
-    if opposite(good, edge) {
-        return refine_crossing(ray, good, edge);
-    }
-    return NO_HIT;
+    return edge;
 }
 
 // Whether a step whose ends have the same sign may hold two crossings: both slopes lead towards the level, and the
@@ -196,29 +233,36 @@ fn may_dip(a: Sample, b: Sample) -> bool {
     return met <= 0.1 * max(va, vb) * (f + r);
 }
 
+// What was found between two samples of the same sign: a sample beyond the level, or else the one nearest to it.
+struct Dip {
+    extremum: Sample,
+    touching: bool,  // the nearest is the level, to rounding
+}
+
 // Looks for the extremum between two samples of the same sign by regula falsi on the slope (Illinois: Dowell and
 // Jarratt 1971), until a sample lies beyond the level or the tangents show that none can.
-fn search_dip(ray: Ray, a: Sample, b: Sample) -> Hit {
+fn search_dip(ray: Ray, a: Sample, b: Sample) -> Dip {
     var low = a;
     var high = b;
     var low_weight = 1.0;
     var high_weight = 1.0;
-    var nearest = min(abs(a.value), abs(b.value));
-    var touch = a.t;
+    var nearest = a;
+    if abs(b.value) < abs(a.value) {
+        nearest = b;
+    }
     for (var k = 0; k < 10; k++) {
         let down = low_weight * abs(low.slope);
         let up = high_weight * abs(high.slope);
         let part = clamp(down / max(down + up, 1e-37), 0.02, 0.98);
         let middle = sample_ray(ray, mix(low.t, high.t, part));
         if !middle.valid {
-            return NO_HIT;
+            return Dip(a, false);
         }
         if opposite(a, middle) {
-            return refine_crossing(ray, a, middle);
+            return Dip(middle, false);
         }
-        if abs(middle.value) <= nearest {
-            nearest = abs(middle.value);
-            touch = middle.t;
+        if abs(middle.value) <= abs(nearest.value) {
+            nearest = middle;
         }
         if (middle.slope < 0.0) == (a.slope < 0.0) {
             low = middle;
@@ -235,7 +279,7 @@ fn search_dip(ray: Ray, a: Sample, b: Sample) -> Hit {
     }
     // Even roots: the extremum equals the level to rounding.
     let size = max(abs(a.value), abs(b.value));
-    return Hit(touch, nearest <= 3e-7 * size, true);
+    return Dip(nearest, abs(nearest.value) <= 3e-7 * size);
 }
 
 // Root between two samples of opposite sign, to the resolution of f32, by Chandrupatla's method (Adv. Eng. Softw.
@@ -341,8 +385,10 @@ fn lit(colour: vec3f, n: vec3f, v: vec3f, open: f32) -> vec3f {
     return colour * (sky * open + sun) + vec3f(gloss) + rim * settings.background;
 }
 
-// The surface at a hit; `step` is the march's, world units.
-fn surface_colour(ray: Ray, hit: Hit, step: f32) -> vec3f {
+// The surface at a hit.
+fn surface_colour(path: Path, hit: Hit) -> vec3f {
+    let ray = path.ray;
+    let step = path.extent / f32(path.count);
     // Where the ray only touches the level the gradient vanishes; just before, it has the right direction.
     let t = hit.t - select(0.0, 0.02 * step, hit.touching);
     let p = ray.origin + t * ray.direction;
@@ -420,9 +466,8 @@ fn wall_at(p: vec3f, n: vec3f, direction: vec3f, footprint: f32, pixel: vec2f, b
     let along = cross(n, flat / slope);
     // Change of value per pixel across the line.
     let rate = 1.0 / max(screen_distance(1.0 / slope, along, n, direction, footprint), 1e-30);
-    if settings.isoline_spacing > 0.0 {
-        let covered = family_coverage(value, rate, window);
-        wall = paint(wall, mix(side, INK, 0.45), covered * select(0.0, 0.5, behind));
+    if behind && settings.isoline_spacing > 0.0 {
+        wall = paint(wall, mix(side, INK, 0.45), 0.5 * family_coverage(value, rate, window));
     }
     let away = min(abs(value) / max(rate, 1e-30), 1e9);
     let level_line = line_coverage(away, 2.0 * settings.isoline_width, window);
@@ -457,6 +502,23 @@ fn family_coverage(value: f32, rate: f32, window: f32) -> f32 {
     return covered;
 }
 
+// The faces of the box that the ray meets, over what lies behind them. The far one is hidden by the surface.
+fn over_box(under: vec3f, ray: Ray, span: vec2f, hidden: bool, pixel: vec2f) -> vec3f {
+    if span.y <= max(span.x, 0.0) {
+        return under;
+    }
+    let pixel_slope = slope_per_pixel(view.size, clamp(settings.fov, 1.0, 120.0) * DEGREE);
+    var colour = under;
+    for (var face = view.zero; face < 2u; face++) {
+        let behind = face == 0u;
+        let t = select(span.x, span.y, behind);
+        if t > 0.0 && !(behind && hidden) {
+            colour = over_wall(colour, ray, t, pixel, pixel_slope, behind);
+        }
+    }
+    return colour;
+}
+
 // The face of the box at distance t on the ray, over what lies behind it.
 fn over_wall(under: vec3f, ray: Ray, t: f32, pixel: vec2f, pixel_slope: f32, behind: bool) -> vec3f {
     let p = ray.origin + t * ray.direction;
@@ -489,37 +551,37 @@ fn ground_openness(p: vec3f) -> f32 {
     return 1.0 - settings.occlusion * (0.55 * exp2(-2.0 * away / reach) + 0.25 * exp2(-2.5 * aside / reach));
 }
 
-// Whether the surface stands between a point and the light.
-fn shadowed(p: vec3f) -> bool {
+// The light's path to a point of the ground.
+fn shadow_path(p: vec3f) -> Path {
     let l = light_direction();
     let span = box_span(p, l, settings.center, settings.box);
-    let enter = max(span.x, 0.0);
-    if span.y <= enter {
-        return false;
-    }
-    let ray = Ray(p + enter * l, l);
-    return march(ray, span.y - enter, step_count(span.y - enter, max(settings.steps / 2u, 8u))).found;
+    return path_within(Ray(p, l), span, max(settings.steps / 2u, 8u));
 }
 
-fn ground_colour(ray: Ray, t: f32) -> vec3f {
-    let p = ray.origin + t * ray.direction;
-    let size = length(settings.box);
-    let away = length(p.xy - settings.center.xy) / max(size, 1e-20);
-    var light = ground_openness(p);
-    if settings.shadow > 0.0 && away < 8.0 {
-        light *= 1.0 - settings.shadow * select(0.0, 0.55, shadowed(p));
-    }
+// Where the shadow is looked for: not so far away that haze hides it.
+fn may_be_shadowed(p: vec3f) -> bool {
+    return settings.shadow > 0.0 && ground_distance(p) < 8.0;
+}
+
+// Distance along the ground from the centre, in sizes of the box.
+fn ground_distance(p: vec3f) -> f32 {
+    return length(p.xy - settings.center.xy) / max(length(settings.box), 1e-20);
+}
+
+fn ground_colour(p: vec3f, direction: vec3f, shadowed: bool) -> vec3f {
+    let light = ground_openness(p) * (1.0 - settings.shadow * select(0.0, 0.55, shadowed));
+    let away = ground_distance(p);
     let haze = 1.0 - exp2(-0.012 * away * away);
-    return mix(settings.background * vec3f(0.90, 0.89, 0.87) * light, sky_colour(ray.direction), haze);
+    return mix(settings.background * vec3f(0.90, 0.89, 0.87) * light, sky_colour(direction), haze);
 }
 
-// What the ray sees when nothing of the box is in its way.
-fn surroundings(ray: Ray) -> vec3f {
+// Distance to the ground on a ray, or 0 where the ray sees the sky.
+fn ground_hit(ray: Ray) -> f32 {
     let height = ray.origin.z - ground_height();
     if height > 0.0 && ray.direction.z < -1e-6 {
-        return ground_colour(ray, height / -ray.direction.z);
+        return height / -ray.direction.z;
     }
-    return sky_colour(ray.direction);
+    return 0.0;
 }
 
 // ---- The picture ---------------------------------------------------------------------------------------------
@@ -545,24 +607,34 @@ fn camera_ray(pixel: vec2f) -> Ray {
 fn shade(pixel: vec2f) -> vec4f {
     let ray = camera_ray(pixel);
     let span = box_span(ray.origin, ray.direction, settings.center, settings.box);
-    let enter = max(span.x, 0.0);
-    let extent = span.y - enter;
-    if !(extent > 0.0) {
-        return vec4f(surroundings(ray), 1.0);
+    let ground = ground_hit(ray);
+    let ground_point = ray.origin + ground * ray.direction;
+    // The eye's path, and then, where it ends on the ground, the light's. Drivers copy a function to where it is
+    // called; the loop makes that one place.
+    let sight = path_within(ray, span, settings.steps);
+    var path = sight;
+    var hit = NO_HIT;
+    var shadowed = false;
+    for (var leg = view.zero; leg < 2u; leg++) {
+        let found = march(path);
+        if leg > 0u {
+            shadowed = found.found;
+            break;
+        }
+        hit = found;
+        if hit.found || ground <= 0.0 || !may_be_shadowed(ground_point) {
+            break;
+        }
+        path = shadow_path(ground_point);
     }
-    let pixel_slope = slope_per_pixel(view.size, clamp(settings.fov, 1.0, 120.0) * DEGREE);
-    // The march starts at the box, so that f32 resolves it independently of the camera's distance.
-    let inner = Ray(ray.origin + enter * ray.direction, ray.direction);
-    let count = step_count(extent, settings.steps);
-    let hit = march(inner, extent, count);
     var colour: vec3f;
     if hit.found {
-        colour = surface_colour(inner, hit, extent / f32(count));
+        colour = surface_colour(sight, hit);
+    } else if ground > 0.0 {
+        colour = ground_colour(ground_point, ray.direction, shadowed);
     } else {
-        colour = over_wall(surroundings(ray), ray, span.y, pixel, pixel_slope, true);
+        colour = sky_colour(ray.direction);
     }
-    if span.x > 0.0 {
-        colour = over_wall(colour, ray, span.x, pixel, pixel_slope, false);
-    }
+    colour = over_box(colour, ray, span, hit.found, pixel);
     return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
 }

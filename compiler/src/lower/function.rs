@@ -400,6 +400,8 @@ impl Lowering<'_, '_, '_> {
             (Prim::Add | Prim::Sub, &[a, b]) => {
                 Ok(self.sum(prim, (a, is_complex[0]), (b, is_complex[1])))
             }
+            // a square has no cancelling component, a product may
+            (Prim::Mul, &[a, b]) if a == b => self.library("complex_square", vec![a]),
             (Prim::Mul, &[a, b]) if !(is_complex[0] && is_complex[1]) => {
                 Ok(self.binary(BinaryOperator::Multiply, a, b))
             }

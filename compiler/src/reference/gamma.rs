@@ -226,6 +226,9 @@ fn log_gamma_near_2(t: f64) -> f64 {
 
 /// ψ(x) = Γ′(x)/Γ(x): NaN at the poles. Relative accuracy near the positive zero, absolute at the negative ones.
 pub fn digamma(x: f64) -> f64 {
+    if x == 0.0 {
+        return -1.0 / x;
+    }
     if is_pole(x) || x.is_nan() || x == f64::NEG_INFINITY {
         return f64::NAN;
     }

@@ -1,0 +1,3 @@
+fn f(p: vec2f) -> f32 {
+    return sin(dot(p, p));
+}
