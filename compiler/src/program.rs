@@ -500,7 +500,7 @@ impl<'a> Checker<'a> {
                 format!("what {} is cannot be told", quoted(name)),
             )
             .with_hint(format!(
-                "write `{0}: complex`, `{0}: vec2` or `{0}: vec3`",
+                "write `{0}: real`, `{0}: complex`, `{0}: vec2` or `{0}: vec3`",
                 shortened(name)
             )),
             _ => Diagnostic::error(
@@ -550,7 +550,7 @@ impl<'a> Checker<'a> {
                         show.args.len()
                     ),
                 )
-                .with_hint(format!("write show {}(f)", scene.name)),
+                .with_hint(format!("write `show {}(f)`", scene.name)),
             );
             return None;
         };

@@ -158,3 +158,12 @@ pub fn blocks(document: &str) -> Vec<Block> {
     assert!(open.is_none(), "{document}: a block is not closed");
     out
 }
+
+/// Every program that we have: the gallery, the wrong programs, and those of the language reference.
+#[must_use]
+pub fn all_programs() -> Vec<String> {
+    let gallery = gallery().into_iter().map(|s| s.text);
+    let wrong = wrong_programs().into_iter().map(|p| p.text);
+    let document = blocks("docs/language.md").into_iter().map(|b| b.text);
+    gallery.chain(wrong).chain(document).collect()
+}

@@ -5,4 +5,5 @@
 pub mod accuracy;
 pub mod corpus;
 pub mod holds;
+pub mod mutate;
 pub mod units;

@@ -6,7 +6,7 @@ use pullback_tests::corpus::{Expected, WrongProgram, wrong_programs};
 use pullback_tests::holds;
 
 /// Codes that are warnings.
-const WARNINGS: [&str; 2] = ["ambiguous-division", "shadows-builtin"];
+const WARNINGS: [&str; 3] = ["ambiguous-division", "outside-domain", "shadows-builtin"];
 
 fn fits(expected: &Expected, found: &Diagnostic, text: &str) -> bool {
     found.code == expected.code
@@ -115,4 +115,15 @@ fn diagnostics_read_well() {
         .map(|n| format!("=== {n}\n{}", of_corpus(n)))
         .collect();
     insta::assert_snapshot!(shown.join("\n"));
+}
+
+#[test]
+fn every_diagnostic_says_what_to_do() {
+    let mut silent: Vec<String> = Vec::new();
+    for case in wrong_programs() {
+        let found = compile(&case.text).diagnostics;
+        let without = found.iter().filter(|d| d.hint.is_none());
+        silent.extend(without.map(|d| format!("{}: {}", case.name, show(d, &case.text))));
+    }
+    assert!(silent.is_empty(), "no hint:\n{}", silent.join("\n"));
 }

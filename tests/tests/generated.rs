@@ -51,7 +51,7 @@ fn codes(answer: &Compilation) -> Vec<&'static str> {
 fn check(name: &str, text: impl Into<String>, expected: &[&[&str]]) {
     let answer = answer(name, text.into());
     let found = codes(&answer);
-    let fits = expected.iter().any(|e| *e == found.as_slice());
+    let fits = expected.contains(&found.as_slice());
     assert!(
         fits,
         "{name}: found {found:?}\n{:?}",

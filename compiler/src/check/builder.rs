@@ -5,6 +5,7 @@ use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
+use super::builtins::advice;
 use super::names::MAX_CALL_DEPTH;
 use super::suggest::quoted;
 use super::symbols::Symbols;
@@ -263,7 +264,11 @@ impl<'a> Builder<'a> {
                             span,
                             format!("a component of a vector is real, found {ty}"),
                         )
-                        .with_label(format!("this is {ty}")),
+                        .with_label(format!("this is {ty}"))
+                        .with_hint(match ty {
+                            Type::Vector(_) => "join vectors by vec3(…) or vec4(…)",
+                            _ => advice(ty, false),
+                        }),
                     );
                     failed = true;
                 }
@@ -294,7 +299,7 @@ impl<'a> Builder<'a> {
                 return self.report(if ty == Type::Complex {
                     problem.with_hint("the parts of a complex number are re(z) and im(z)")
                 } else {
-                    problem
+                    problem.with_hint("write `*` for a product; a vector is written (x, y)")
                 });
             }
         };

@@ -126,8 +126,21 @@ fn mismatch(b: &mut Builder, span: Span, expected: &str, found: &Value) -> Value
             span,
             format!("expected {expected}, found {ty}"),
         )
-        .with_label(format!("this is {ty}")),
+        .with_hint(advice(ty, expected.contains("vec"))),
     )
+}
+
+/// How a value of this type becomes what is wanted: a vector, or a real number.
+pub fn advice(found: Type, wants_vector: bool) -> &'static str {
+    match found {
+        Type::Complex => "take re(…), im(…) or abs(…) of the complex number",
+        Type::Bool => "a condition is not a number: write if … then 1 else 0",
+        Type::Vector(_) if wants_vector => {
+            "vectors must have the same number of components; a swizzle such as p.xy shortens one"
+        }
+        Type::Vector(_) => "take a component such as v.x, or the length |v|",
+        Type::Real => "write a vector such as (x, y) or (x, y, z)",
+    }
 }
 
 fn vector(b: &mut Builder, args: &[Value], span: Span, size: usize) -> Value {

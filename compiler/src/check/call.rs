@@ -4,6 +4,7 @@ use pullback_grammar::ast::{ExprId, Function, Name};
 use pullback_grammar::{Diagnostic, Span};
 use smallvec::SmallVec;
 
+use super::builtins::advice;
 use super::names::signature;
 use super::suggest::quoted;
 use super::{Builder, Source, Value, builtins, library};
@@ -145,12 +146,8 @@ impl<'a> Builder<'a> {
                     function.params[k].name.span,
                     format!("{ty} in {}", signature(function)),
                 );
-                let from_complex = found == Type::Complex && ty == Type::Real;
-                self.report(if from_complex {
-                    problem.with_hint("take re(…), im(…) or abs(…)")
-                } else {
-                    problem
-                })
+                let wants_vector = matches!(ty, Type::Vector(_));
+                self.report(problem.with_hint(advice(found, wants_vector)))
             }
         }
     }

@@ -184,14 +184,12 @@ impl<'a, 'd> Walk<'a, 'd> {
             }
             Expr::Call { callee, args, .. } => {
                 self.callee(callee, args.len());
-                let takes_functions = is_reserved_function(&callee.text);
-                for &arg in args {
-                    let is_function =
-                        |n: &Name| self.symbols.functions.contains_key(n.text.as_str());
-                    if !(takes_functions && matches!(&exprs[arg], Expr::Name(n) if is_function(n)))
-                    {
-                        self.expr(arg);
-                    }
+                let is_reserved = is_reserved_function(&callee.text)
+                    && !self.symbols.functions.contains_key(callee.text.as_str());
+                if is_reserved {
+                    self.reserved_arguments(args);
+                } else {
+                    args.iter().for_each(|a| self.expr(*a));
                 }
             }
             Expr::Member { base, .. } => self.expr(*base),
@@ -214,6 +212,24 @@ impl<'a, 'd> Walk<'a, 'd> {
             }
             Expr::Where { body, locals } => self.locals(*body, locals),
         }
+    }
+
+    /// Arguments of a function that is not there yet: the bare name of a function stands for the function, and any
+    /// other bare name behind the first argument for the variable in it.
+    fn reserved_arguments(&mut self, args: &'a [ExprId]) {
+        let depth = self.scope.len();
+        for &arg in args.iter().skip(1) {
+            if let Expr::Name(name) = &self.exprs[arg] {
+                self.scope.push(&name.text);
+            }
+        }
+        for &arg in args {
+            let is_function = |n: &Name| self.symbols.functions.contains_key(n.text.as_str());
+            if !matches!(&self.exprs[arg], Expr::Name(n) if is_function(n)) {
+                self.expr(arg);
+            }
+        }
+        self.scope.truncate(depth);
     }
 
     fn locals(&mut self, body: ExprId, locals: &'a [(Name, ExprId)]) {
@@ -324,6 +340,9 @@ impl<'a, 'd> Walk<'a, 'd> {
         if let Some(product) = self.as_product(text) {
             return problem.with_hint(format!("for a product write `{product}`"));
         }
+        if let Some(call) = self.as_call(text) {
+            return problem.with_hint(format!("for a call write `{call}`"));
+        }
         let candidates = self
             .scope
             .iter()
@@ -372,6 +391,18 @@ impl<'a, 'd> Walk<'a, 'd> {
         ((2..=8).contains(&letters.len()) && letters.iter().all(known)).then(|| letters.join(" "))
     }
 
+    /// `sinx` as `sin(x)`, where both parts have a meaning.
+    fn as_call(&self, text: &str) -> Option<String> {
+        let places = text.char_indices().map(|(at, _)| at).skip(2).take(12);
+        let mut splits = places.map(|at| text.split_at(at));
+        let is_call = |&(function, argument): &(&str, &str)| {
+            let is_input = self.in_formula && FREE_NAMES.contains(&argument);
+            is_builtin_function(function) && (self.is_value(argument) || is_input)
+        };
+        let (function, argument) = splits.find(is_call)?;
+        Some(format!("{function}({argument})"))
+    }
+
     fn usage(&self, name: &str) -> String {
         match self.symbols.functions.get(name) {
             Some(function) => signature(function),
@@ -402,7 +433,12 @@ impl<'a, 'd> Walk<'a, 'd> {
                     callee.span,
                     format!("`{text}` is not available in this version"),
                 )
-                .with_label("reserved for a later version"),
+                .with_label("reserved for a later version")
+                .with_hint(match text {
+                    "sum" | "product" | "iterate" => "write the terms out",
+                    "integral" => "write the integral in closed form",
+                    _ => "`pullback eval --what gradient` computes derivatives",
+                }),
             );
             return;
         }

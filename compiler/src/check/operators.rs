@@ -346,7 +346,8 @@ impl<'a> Builder<'a> {
                 format!("the branches differ in type: {ta} and {tb}"),
             )
             .with_label(format!("this is {tb}"))
-            .with_related(a.1, format!("this is {ta}")),
+            .with_related(a.1, format!("this is {ta}"))
+            .with_hint("give both the same type"),
         )
     }
 }

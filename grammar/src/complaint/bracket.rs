@@ -132,6 +132,19 @@ impl Parser<'_> {
         );
     }
 
+    /// What a comma outside of brackets may have been meant for.
+    fn hint_for_comma(&self) -> &'static str {
+        let (before, after) = (self.last_span(), self.span_ahead(1));
+        let touches = before.end == self.span().start && self.span().end == after.start;
+        if self.behind() == TokenKind::Number && self.ahead(1) == TokenKind::Number && touches {
+            "the decimal point is `.`; write `(a, b)` for a vector"
+        } else if self.first_span().text(self.text) == "param" {
+            "write one `param` on each line"
+        } else {
+            "write `(a, b)` for a vector"
+        }
+    }
+
     /// Complains that nothing readable goes on here; `opened` is the bracket around this place.
     #[cold]
     pub(crate) fn complain_unexpected(&mut self, opened: Option<&Opened>) {
@@ -175,7 +188,7 @@ impl Parser<'_> {
             TokenKind::Comma => (
                 "unexpected-token",
                 "`,` outside of brackets".to_owned(),
-                Some("write `(a, b)` for a vector"),
+                Some(self.hint_for_comma()),
             ),
             TokenKind::Semicolon => (
                 "unexpected-token",

@@ -4,13 +4,14 @@ use crate::Diagnostic;
 use crate::Span;
 use crate::ast::Name;
 use crate::cursor::Parser;
+use crate::stray::shorten;
 use crate::token::TokenKind;
 
 impl Parser<'_> {
     /// `sin^-1(x)`: the inverse function, or one over the value.
     #[cold]
     pub(crate) fn complain_inverse(&mut self, callee: &Name, place: Span) {
-        let name = &callee.text;
+        let name = shorten(&callee.text);
         let inverse = match name.as_str() {
             "sin" | "cos" | "tan" | "sinh" | "cosh" | "tanh" => Some(format!("a{name}")),
             "exp" => Some("log".to_owned()),
@@ -38,7 +39,7 @@ impl Parser<'_> {
     #[cold]
     pub(crate) fn complain_not_called(&mut self, callee: &Name, primes: u32) {
         let marks = "'".repeat(primes.min(4) as usize);
-        let name = format!("{}{marks}", callee.text);
+        let name = format!("{}{marks}", shorten(&callee.text));
         let argument = match self.kind() {
             TokenKind::Name | TokenKind::Number | TokenKind::Imaginary if !self.starts_line() => {
                 self.short(self.span())
@@ -66,7 +67,7 @@ impl Parser<'_> {
     pub(crate) fn complain_no_function(&mut self, name: &Name) {
         let message = format!(
             "a prime stands behind `{}`, which is no function",
-            name.text
+            shorten(&name.text)
         );
         self.complain(
             Diagnostic::error("stray-prime", name.span.join(self.last_span()), message)

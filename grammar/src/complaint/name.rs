@@ -4,6 +4,7 @@ use crate::Diagnostic;
 use crate::Span;
 use crate::ast::Name;
 use crate::cursor::Parser;
+use crate::stray::shorten;
 use crate::token::TokenKind;
 
 impl Parser<'_> {
@@ -56,7 +57,7 @@ impl Parser<'_> {
                 .with_label("a prime is no part of a name")
                 .with_hint(format!(
                     "define `{0}`; its derivative `{0}'` follows",
-                    name.text
+                    shorten(&name.text)
                 )),
             );
         }
@@ -271,7 +272,7 @@ impl Parser<'_> {
             self.complain(
                 Diagnostic::error("missing-equals", span, message)
                     .with_label("expected `=`")
-                    .with_hint(format!("write `{} = value`", name.text)),
+                    .with_hint(format!("write `{} = value`", shorten(&name.text))),
             );
             if self.eat(TokenKind::Colon) {
                 return Some(name);

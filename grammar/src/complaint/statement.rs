@@ -3,6 +3,7 @@
 use crate::ast::{MAX_NESTING, Name};
 use crate::cursor::{Node, Parser};
 use crate::layout::StatementKind;
+use crate::stray::shorten;
 use crate::token::TokenKind;
 use crate::{Diagnostic, Span};
 
@@ -18,7 +19,8 @@ impl Parser<'_> {
         let hint = if is_foreign_word(text) {
             format!("remove it: a definition is `{name} = …` or `{name}(x) = …`")
         } else if self.ahead(1) == TokenKind::Equals {
-            format!("write `{text}({name}) = …` for a function, `{name} = …` for a constant")
+            let word = self.short(word);
+            format!("write `{word}({name}) = …` for a function, `{name} = …` for a constant")
         } else {
             format!("write `{name}(x) = …`")
         };
@@ -65,9 +67,9 @@ impl Parser<'_> {
             return self.disjunction();
         }
         let shown = if name.text.is_empty() {
-            "name"
+            "name".to_owned()
         } else {
-            &name.text
+            shorten(&name.text)
         };
         let span = self.span();
         let diagnostic =
@@ -133,9 +135,9 @@ impl Parser<'_> {
             return true;
         }
         let shown = if scene.text.is_empty() {
-            "surface"
+            "surface".to_owned()
         } else {
-            &scene.text
+            shorten(&scene.text)
         };
         let span = if opens {
             self.span().join(self.span_ahead(1))
