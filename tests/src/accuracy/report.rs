@@ -133,7 +133,7 @@ fn builtin(subject: &Subject, builtins: &Machine) -> String {
 /// Three digits.
 fn ulps(error: f64) -> String {
     match error {
-        e if e == 0.0 => "0".to_owned(),
+        0.0 => "0".to_owned(),
         e if e < 99.95 => format!("{e:.2}"),
         e if e < 1e6 => format!("{e:.0}"),
         e => format!("{e:.0e}"),
