@@ -101,6 +101,18 @@ REAL = {
     "gamma": (mp.gamma, lambda x: not pole(x), INF, NAN),
     "digamma": (mp.digamma, lambda x: not pole(x), INF, NAN),
     "sinc": (sinc, everywhere, 0.0, 0.0),
+    "lgamma": (lambda x: mp.log(abs(mp.gamma(x))), lambda x: not pole(x), INF, INF),
+    "trigamma": (lambda x: mp.polygamma(1, x), lambda x: not pole(x), 0.0, NAN),
+    "neg": (lambda x: -x, everywhere, -INF, INF),
+    "square": (lambda x: x * x, everywhere, INF, INF),
+    "cube": (lambda x: x * x * x, everywhere, INF, -INF),
+    "pow7": (lambda x: x**7, everywhere, INF, -INF),
+    "inverse": (lambda x: 1 / x, everywhere, 0.0, -0.0),
+    "inverse_square": (lambda x: 1 / x**2, everywhere, 0.0, 0.0),
+    "conj": (lambda x: x, everywhere, INF, -INF),
+    "re": (lambda x: x, everywhere, INF, -INF),
+    "im": (lambda x: mp.mpf(0), everywhere, 0.0, 0.0),
+    "arg": (lambda x: mp.pi if x < 0 else mp.mpf(0), everywhere, 0.0, mp.pi),
 }
 # Values that no limit of the function on its domain gives.
 AT = {("log1p", -1.0): -INF, ("atanh", 1.0): INF, ("atanh", -1.0): -INF}
@@ -115,6 +127,9 @@ EXTRA = {
     "sinh": [88.72283, 89.4, 89.5], "cosh": [88.72283, 89.4, 89.5], "tanh": [9.0, 20.0, 89.0], "cbrt": [27.0, 8.0],
     "asin": [-1 + 2.0**-24], "acos": [-1 + 2.0**-24], "acosh": [up(1.0, 4), 1.5], "atanh": [-1 + 2.0**-24],
     "gamma": [-0.5, -1.0, -2.0, up(1.0), -1 - 2.0**-23, -1 + 2.0**-24, 5.0, 34.0, 35.0, 35.1, -33.5, -40.5],
+    "lgamma": [-0.5, -1.0, -2.0, -1 - 2.0**-23, up(1.0), 3.0, 35.0, -3.5, -2.4570248, 1e-3],
+    "trigamma": [-0.5, -1.0, -2.0, -1 - 2.0**-23, 0.1, 5.0, 35.0, -3.5],
+    "cube": [-2.0, 7e12, -7e12], "pow7": [-2.0, 1.5, 3e5], "inverse": [3.0, -7.0], "inverse_square": [3.0, -7.0],
     "digamma": [-0.5, -1.0, -2.0, -1 - 2.0**-23, f32(1.4616321449683622), up(1.4616321), 5.0], "sinc": [PI, f32(4.4934095), 2 * PI],
 }
 
@@ -134,27 +149,31 @@ def one_sided(fn, defined, x):
 def real_row(name, x):
     fn, defined, at_inf, at_minus_inf = REAL[name]
     if math.isnan(x) or math.isinf(x):
-        value = NAN if math.isnan(x) else at_inf if x > 0 else at_minus_inf
+        value = 0.0 if name == "im" else NAN if math.isnan(x) else at_inf if x > 0 else at_minus_inf
         return value, "-", "special"
     key = (name, x) if x else (name, -0.0 if negative(x) else 0.0)
     if key in AT and (x or negative(x)):
         return AT[key], "-", "pole"
+    if name == "lgamma" and x == 0:
+        return INF, "-", "pole"
     if name == "sqrt" and x == 0:
         return x, "-" if negative(x) else "inf", "-"
     z = smear(x)
     if not defined(z):
-        return NAN, "-", "pole" if name in ("gamma", "digamma") else "domain"
+        at_pole = {"gamma": NAN, "digamma": NAN, "lgamma": INF, "trigamma": INF}
+        return at_pole.get(name, NAN), "-", "pole" if name in at_pole else "domain"
     value = fn(z)
     if abs(value) > LARGE and x == 0 or (name.startswith("log") and x == 0 and name != "log1p"):
         return (INF if value > 0 else -INF), "-", "pole"
     slope = one_sided(fn, defined, z)
-    if name == "abs" and x == 0:
+    if name in ("abs", "arg") and x == 0:
         slope = None
     return value, "-" if slope is None else "inf" if slope > LARGE else "-inf" if slope < -LARGE else slope, remark([value])
 
 
 STEPS = {
-    "floor": (math.floor, "0.0"), "round": (lambda x: round(x), "0.0"), "sign": (lambda x: (x > 0) - (x < 0), "0.0"),
+    "floor": (math.floor, "0.0"), "ceil": (math.ceil, "0.0"), "trunc": (math.trunc, "0.0"),
+    "round": (lambda x: math.copysign(math.floor(abs(x) + 0.5), x), "0.0"), "sign": (lambda x: (x > 0) - (x < 0), "0.0"),
     "fract": (lambda x: mp.mpf(x) - math.floor(x), "1.0"),
 }
 STEP_POINTS = [0.0, 2.0**-126, 1e-9, 0.25, 0.5, 0.75, 1 - 2.0**-24, 1.0, 1.5, 2.0, 2.5, 8388607.5, 16777216.0, 1e10, 3e38]
@@ -164,8 +183,8 @@ def step_rows(name):
     fn, slope = STEPS[name]
     for x in [s * p for p in map(f32, STEP_POINTS) for s in (1, -1)]:
         value = fn(x)
-        jump = name in ("floor", "fract") and x == math.floor(x) or name == "sign" and x == 0 or name == "round" and abs(x) % 1 == 0.5
-        if name != "fract" and value == 0:
+        jump = name in ("floor", "ceil", "fract") and x == math.floor(x) or name == "trunc" and x and x == math.floor(x) or name == "sign" and x == 0 or name == "round" and abs(x) % 1 == 0.5
+        if name not in ("fract", "sign") and value == 0:
             value = math.copysign(0.0, x)
         notes = "tie" if name == "round" and jump else "below-one" if name == "fract" and f32(float(value)) == 1.0 else "-"
         yield x, mp.mpf(value) if value else float(value), "-" if jump else slope, notes
@@ -186,7 +205,7 @@ def write_real(out):
         for name in STEPS:
             for x, value, slope, notes in step_rows(name):
                 fh.write(line(name, show(x), "-", show(value), slope, "-", notes))
-        for name, rows in (("hypot", hypot_rows()), ("atan2", atan2_rows()), ("pow", pow_rows()), ("mod", mod_rows()), ("min", min_rows(min)), ("max", min_rows(max))):
+        for name, rows in (("hypot", hypot_rows()), ("atan2", atan2_rows()), ("pow", pow_rows()), ("mod", mod_rows()), *((n, arithmetic_rows(n)) for n in ARITHMETIC), ("min", min_rows(min)), ("max", min_rows(max))):
             for x, y, value, dx, dy, notes in rows:
                 fh.write(line(name, show(f32(x)), show(f32(y)), show(value), show(dx), show(dy), notes))
 
@@ -263,9 +282,43 @@ def mod_rows():
         top = abs(f32(float(v))) == abs(f32(y))
         yield x, y, v, "1.0", -n if n else 0.0, "below-divisor" if top else remark([v])
     for x, y in [(6.0, 3.0), (-6.0, 3.0), (6.0, -3.0), (0.0, 3.0), (3e38, 1.0)]:
-        yield x, y, 0.0, "-", "-", "jump"
+        yield x, y, math.copysign(0.0, y), "-", "-", "jump"
     for x, y in [(1.0, 0.0), (0.0, 0.0), (INF, 1.0), (NAN, 1.0), (1.0, NAN)]:
         yield x, y, NAN, "-", "-", "special" if x - x != 0 or y != y else "domain"
+
+
+def ieee(divide, x, y):
+    """x / y of Python floats as IEEE 754 has it, where `divide`, else x * y."""
+    if not divide:
+        return x * y
+    if y == 0:
+        return NAN if x == 0 or math.isnan(x) else math.copysign(INF, x) * math.copysign(1, y)
+    return x / y
+
+
+# name -> (function, its partial derivatives, IEEE 754 on floats)
+ARITHMETIC = {
+    "add": (lambda x, y: x + y, lambda x, y: (mp.mpf(1), mp.mpf(1)), lambda x, y: x + y),
+    "sub": (lambda x, y: x - y, lambda x, y: (mp.mpf(1), mp.mpf(-1)), lambda x, y: x - y),
+    "mul": (lambda x, y: x * y, lambda x, y: (y, x), lambda x, y: ieee(False, x, y)),
+    "div": (lambda x, y: x / y, lambda x, y: (1 / y, -x / y**2), lambda x, y: ieee(True, x, y)),
+}
+
+
+def arithmetic_rows(name):
+    fn, slopes, on_floats = ARITHMETIC[name]
+    points = [0.0, -0.0, 1.0, -1.0, f32(0.1), 3.0, -7.0, up(1.0), 1e-30, -1e20, 3e38, 2.0**-126, INF, -INF, NAN]
+    for x in map(f32, points):
+        for y in map(f32, points):
+            if not (math.isfinite(x) and math.isfinite(y)):
+                yield x, y, on_floats(x, y), "-", "-", "special"
+            elif name == "div" and y == 0 or x == 0 or y == 0:
+                slope = slopes(mp.mpf(x), mp.mpf(y)) if name != "div" or y else ("-", "-")
+                yield x, y, on_floats(x, y), *slope, "pole" if name == "div" and y == 0 else "-"
+            else:
+                value = fn(mp.mpf(x), mp.mpf(y))
+                dx, dy = slopes(mp.mpf(x), mp.mpf(y))
+                yield x, y, value if value else 0.0, dx, dy, remark([value])
 
 
 def min_rows(fn):
@@ -291,7 +344,7 @@ COMPLEX = {
     "sinh": mp.sinh, "cosh": mp.cosh, "tanh": mp.tanh, "asinh": mp.asinh, "acosh": CACOSH, "atanh": mp.atanh,
     "sinc": lambda z: mp.sin(z) / z,
 }
-SLOW = {"gamma": mp.gamma, "digamma": mp.digamma}
+SLOW = {"gamma": mp.gamma, "digamma": mp.digamma, "trigamma": lambda z: mp.polygamma(1, z)}
 HUGE = {"log", "log2", "log10", "log1p", "sqrt", "cbrt", "asin", "acos", "atan", "asinh", "acosh", "atanh"}
 CUTS = {
     "log": lambda x, y: y == 0 and x < 0, "log1p": lambda x, y: y == 0 and x < -1, "asin": lambda x, y: y == 0 and abs(x) > 1,
@@ -409,6 +462,8 @@ def write_complex(out):
         fh.write("# " + line("function", "z.re", "z.im", "w.re", "w.im", "f.re", "f.im", "d.re", "d.im", "notes"))
 
         def emit(name, x, y, value, slope, notes, w=("-", "-")):
+            if w[0] != "-":  # the sign of a zero depends on how a product is formed
+                value = ["±0.0" if abs(v) < NOTHING else v for v in value]
             d = ("-", "-") if slope is None else (show(slope.real), show(slope.imag))
             fh.write(line(name, show(x), show(y), *w, show(value[0]), show(value[1]), *d, notes))
 
@@ -428,6 +483,7 @@ def write_complex(out):
             for x, y in [(0.5, 0.5), (1.0, 1e-6), (2.0, -3.0), (-0.5, 1e-4), (-1.0, 1e-4), (-1.0, -1e-6), (-5.0, 1e-3), (1e-6, 1e-6), (-7.5, 0.5), (5.0, 0.0), (5.0, -0.0), (0.5, 20.0), (0.5, -40.0), (30.0, 1.0), (-20.5, 3.0), (1e-30, -1e-30)]:
                 emit(name, f32(x), f32(y), *complex_row(name, fn, f32(x), f32(y)))
         write_simple(emit)
+        write_pairs(emit)
 
 
 def write_simple(emit):
@@ -452,6 +508,23 @@ def write_simple(emit):
         slope = (power(a + h) - power(a - h)) / (2 * h)
         v = power(a)
         emit("pow", f32(z[0]), f32(z[1]), (v.real, v.imag), slope, "cut" if z[1] == 0 and z[0] < 0 else remark([v.real, v.imag]), (show(f32(w[0])), show(f32(w[1]))))
+
+
+PAIRS = [
+    ((2.0, 3.0), (-1.0, 0.5)), ((1e20, 1e20), (1e10, -1e10)), ((1e30, 1e30), (1e30, 1e30)), ((1e-30, 1e-30), (1e-30, -1e-30)),
+    ((3e38, 3e38), (3e38, 3e38)), ((1.0, up(1.0)), (up(1.0), 1.0)), ((0.1, 0.3), (0.3, 0.1)), ((0.1, -0.3), (-0.3, 0.1)),
+    ((5.0, 1e-10), (1e-10, 5.0)), ((1e-20, 7.0), (3.0, 1e20)), ((0.0, 2.0), (3.0, 4.0)), ((2.0, -0.0), (0.0, -5.0)), ((1e38, 1.0), (0.25, 1e-38)),
+    ((0.70710677, 0.70710677), (0.70710677, -0.70710677)), ((16777215.0, 16777213.0), (16777213.0, 16777215.0)),
+]
+
+
+def write_pairs(emit):
+    for name, fn, slope in (("mul", lambda z, w: z * w, lambda z, w: w), ("div", lambda z, w: z / w, lambda z, w: 1 / w)):
+        for z, w in PAIRS:
+            z, w = tuple(map(f32, z)), tuple(map(f32, w))
+            v = fn(mp.mpc(*map(smear, z)), mp.mpc(*map(smear, w)))
+            d = slope(mp.mpc(*map(smear, z)), mp.mpc(*map(smear, w)))
+            emit(name, *z, (v.real, v.imag), d, remark([v.real, v.imag]), tuple(map(show, w)))
 
 
 def main():

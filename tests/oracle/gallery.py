@@ -22,6 +22,7 @@ SIDE = mp.mpf(10) ** -150  # stands for a signed zero of a complex argument: the
 NOTHING = mp.mpf(10) ** -90  # what is smaller is a zero, smeared by SIDE or STEP
 MAX, TINY = mp.mpf(2) ** 128 * (1 - mp.mpf(2) ** -25), mp.mpf(2) ** -126
 DIGITS = 20
+UNIT = mp.mpf(2) ** -24
 
 
 def f32(v):
@@ -37,6 +38,7 @@ def f32(v):
 class Num:
     largest = mp.mpf(0)  # of all intermediate results since it was reset
     tie = False  # whether a comparison met two equal numbers since it was reset
+    coarse = False  # whether float32 leaves the range where first-order bounds mean anything since it was reset
 
     def __init__(self, v, e=0):
         self.v, self.e = mp.mpmathify(v), mp.mpf(e)
@@ -62,6 +64,7 @@ class Num:
 
     def div(self, o):
         v = self.v / o.v
+        Num.coarse = Num.coarse or o.e * UNIT > abs(o.v) / 16
         return Num(v, (self.e + abs(v) * o.e) / abs(o.v) + abs(v))
 
     def neg(self):
@@ -70,8 +73,13 @@ class Num:
     def conj(self):
         return Num(mp.conj(self.v), self.e)
 
-    def apply(self, fn, slope):
+    def apply(self, fn, slope, second=None):
+        """fn with its derivative; where the second one is given, its part in the error is watched."""
         v = fn(self.v)
+        if second:
+            moved = self.e * UNIT
+            bend = abs(second(self.v)) * moved
+            Num.coarse = Num.coarse or (bend > abs(slope(self.v)) / 16 and bend * moved > UNIT * abs(v) / 16)
         return Num(v, abs(slope(self.v)) * self.e + abs(v)) if self.e else Num(v, abs(v))
 
 
@@ -154,7 +162,7 @@ def function(fn, d1, d2):
     def call(x):
         if not isinstance(x, Dual):
             return fn(mp.mpmathify(x))
-        return x.chain(x.a.apply(fn, d1), x.a.apply(d1, d2))
+        return x.chain(x.a.apply(fn, d1, d2), x.a.apply(d1, d2))
 
     return call
 
@@ -443,15 +451,25 @@ def evaluate(f, args, complex_, pair):
                 seeds = [Dual(Num(args[0]), [Num(1)])]
         if not all(mp.isnan(s) or representable(s) for s in slopes):
             return None
-        Num.largest, Num.tie = mp.mpf(0), False
+        Num.largest, Num.tie, Num.coarse = mp.mpf(0), False, False
         return value, slopes, f(*seeds)
     except ZeroDivisionError:
         return None
 
 
+def defined_at_zero(f):
+    """Whether the formula as it is written has a value at 0: not so for sin(z)/z."""
+    try:
+        return mp.isfinite(f(mp.mpc(0)))
+    except (ZeroDivisionError, ValueError):
+        return False
+
+
 def row(f, point, complex_, pair):
     if complex_:
         smear = lambda c: SIDE * (-1 if repr(c).startswith("-") else 1) if c == 0 else mp.mpf(c)
+        if point == (0.0, 0.0) and not defined_at_zero(f):
+            return None
         args = [mp.mpc(smear(point[0]), smear(point[1]))]
     else:
         args = [mp.mpf(c) for c in point]
@@ -460,6 +478,8 @@ def row(f, point, complex_, pair):
         return None
     value, slopes, dual = found
     notes = ["overflow"] if Num.largest > MAX else []
+    if Num.coarse:
+        notes.append("coarse")
     if complex_ and 0.0 in point:
         z = args[0]
         others = [mp.conj(z)] if point[1] == 0.0 else []

@@ -1,6 +1,8 @@
-//! Suites that cross the crates of pullback, and what they share: the corpora, and what every answer of the
-//! compiler has.
+//! Suites that cross the crates of pullback, and what they share: the corpora, what every answer of the compiler
+//! has, and how accurate a number is.
 
+#[cfg(feature = "gpu")]
+pub mod accuracy;
 pub mod corpus;
 pub mod holds;
 pub mod mutate;

@@ -19,6 +19,11 @@ fn opaque(v: f32, zero: u32) -> f32 {
     return bitcast<f32>(bitcast<u32>(v) ^ zero);
 }
 
+/// v, which no driver may join with what follows: (a / b) / c computed as a / (b c) overflows early.
+fn rounded(v: f32) -> f32 {
+    return opaque(v, hidden_zero(v));
+}
+
 /// |x|, also of NaN.
 fn magnitude(x: f32) -> f32 {
     return bitcast<f32>(bitcast<u32>(x) & 0x7fffffffu);

@@ -1,7 +1,7 @@
 //! Forward mode: tangents of every node along one direction, with zero tangents folded away.
 
 use super::NoDerivative;
-use super::rules::{int_power_partial, nonzero_modulus, sum, takes_second, zero_like};
+use super::rules::{int_power_partial, sum, takes_second, zero_like};
 use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
@@ -88,10 +88,10 @@ fn structural(
             let right = t.map(|t| g.mul(a, t));
             sum(g, left, right)
         }
-        // (1/b)' = -(1/b)² b'
+        // (1/b)' = -(1/b) ((1/b) b'), without the square, which underflows early
         (Prim::Div, &[one, _], &[None, Some(t)]) if g.as_real(one) == Some(1.0) => {
-            let square = g.apply(Prim::PowInt(2), &[value]);
-            let product = g.mul(square, t);
+            let once = g.mul(value, t);
+            let product = g.mul(value, once);
             Some(g.neg(product))
         }
         // (a/b)' = (a' - (a/b) b') / b
@@ -143,7 +143,7 @@ fn abs_tangent(g: &mut Graph, x: Id, value: Id, tangent: Id) -> Id {
         let sign = g.apply(Prim::Sign, &[x]);
         return g.mul(sign, tangent);
     }
-    let modulus = nonzero_modulus(g, value);
+    let modulus = table::nonzero(g, value);
     let mut total = None;
     for part in [Prim::Re, Prim::Im] {
         let (side, slope) = (g.apply(part, &[x]), g.apply(part, &[tangent]));

@@ -1,7 +1,7 @@
 //! The first-order jet of a function of one complex variable.
 
 use super::NoDerivative;
-use super::rules::{int_power_partial, nonzero_modulus, sum, takes_second};
+use super::rules::{int_power_partial, sum, takes_second};
 use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
@@ -194,8 +194,8 @@ impl Rule<'_> {
         if let (None, Some(db)) = (da, db)
             && g.as_real(a) == Some(1.0)
         {
-            let square = g.apply(Prim::PowInt(2), &[self.value]);
-            let product = g.mul(square, db);
+            let once = g.mul(self.value, db);
+            let product = g.mul(self.value, once);
             return Some(g.neg(product));
         }
         let correction = db.map(|db| g.mul(self.value, db));
@@ -236,7 +236,7 @@ impl Rule<'_> {
                 difference(g, a, b).map(|d| turn_back(g, d))
             }
             Prim::Abs => {
-                let modulus = nonzero_modulus(g, self.value);
+                let modulus = table::nonzero(g, self.value);
                 let unit = g.div(u, modulus);
                 let reflected = g.apply(Prim::Conj, &[unit]);
                 let left = a.map(|a| g.mul(reflected, a));

@@ -9,12 +9,6 @@ pub fn int_power_partial(g: &mut Graph, x: Id, n: i32) -> Id {
     g.mul(factor, power)
 }
 
-/// Keeps a modulus from zero by the least normal f32, so that directions at the origin are 0 and not NaN.
-pub fn nonzero_modulus(g: &mut Graph, modulus: Id) -> Id {
-    let least = g.real(f64::from(f32::MIN_POSITIVE));
-    g.apply(Prim::Max, &[modulus, least])
-}
-
 /// A zero of the type of `like`.
 pub fn zero_like(g: &mut Graph, like: Ty) -> Id {
     if like == Ty::Complex {

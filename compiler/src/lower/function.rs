@@ -316,6 +316,10 @@ impl Lowering<'_, '_, '_> {
         if complex || node.ty == Ty::Complex {
             return self.apply_complex(prim, node, &args);
         }
+        if prim == Prim::Div && self.is_quotient(node.args[0]) {
+            // drivers turn (a / b) / c into a / (b c), which overflows or underflows early
+            args[0] = self.library("rounded", vec![args[0]])?;
+        }
         match table::row(prim).gpu {
             Gpu::Binary(op) => Ok(self.binary(op, args[0], args[1])),
             Gpu::Unary(op) => Ok(self.unary(op, args[0])),
@@ -335,6 +339,10 @@ impl Lowering<'_, '_, '_> {
                 _ => Err(LowerError::NoForm(table::row(prim).usage)),
             },
         }
+    }
+
+    fn is_quotient(&self, id: Id) -> bool {
+        self.graph.node(id).op == Op::Apply(Prim::Div)
     }
 
     /// One half of a pair of functions that are computed together, where both are wanted.

@@ -2,7 +2,7 @@
 
 use naga::{BinaryOperator, MathFunction, UnaryOperator};
 
-use super::derivative::{call, plus, reciprocal, scaled};
+use super::derivative::{call, nonzero, plus, reciprocal, scaled};
 use super::{Derivative, Gpu, Row, Typing, Weight};
 use crate::ir::{Graph, Id, Prim};
 use crate::reference::real;
@@ -208,31 +208,31 @@ pub fn rows() -> Vec<Row> {
     ]
 }
 
-/// ∂|p|/∂p_k = p_k / |p|, and 0 at the origin: the divisor is kept from zero by the least normal f32, which
-/// changes no other quotient.
+/// ∂|p|/∂p_k = p_k / |p|, and 0 at the origin.
 fn length_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
-    let least = g.real(f64::from(f32::MIN_POSITIVE));
-    let divisor = g.apply(Prim::Max, &[value, least]);
+    let divisor = nonzero(g, value);
     g.div(args[k], divisor)
 }
 
-/// ∂(a^b)/∂a = b a^(b-1), which is finite at a = 0 where a^b b/a is not; ∂(a^b)/∂b = a^b log a, and 0 at a = 0.
+/// ∂(a^b)/∂a = b a^(b-1), which is finite at a = 0 where a^b b/a is not, and 0 for b = 0; ∂(a^b)/∂b = a^b log a, and 0 at a = 0.
 fn pow_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     let &[base, exponent] = args else {
         return value;
     };
-    if k == 0 {
-        let lower = plus(g, exponent, -1.0);
-        let power = g.apply(Prim::Pow, &[base, lower]);
-        return g.mul(exponent, power);
-    }
-    let log = call(g, Prim::Log, base);
-    let product = g.mul(value, log);
     let zero = if g.ty(base) == crate::ir::Ty::Complex {
         g.complex(0.0, 0.0)
     } else {
         g.real(0.0)
     };
+    if k == 0 {
+        let lower = plus(g, exponent, -1.0);
+        let power = g.apply(Prim::Pow, &[base, lower]);
+        let product = g.mul(exponent, power);
+        let constant = g.apply(Prim::Equal, &[exponent, zero]);
+        return g.apply(Prim::Select, &[constant, zero, product]);
+    }
+    let log = call(g, Prim::Log, base);
+    let product = g.mul(value, log);
     let at_zero = g.apply(Prim::Equal, &[base, zero]);
     g.apply(Prim::Select, &[at_zero, zero, product])
 }

@@ -31,9 +31,24 @@ pub fn square(g: &mut Graph, a: Id) -> Id {
     g.apply(Prim::PowInt(2), &[a])
 }
 
+/// i a for complex a, by exchange of the parts: a product would lose the sign of a zero, and with it the side of a
+/// cut.
+pub fn turn(g: &mut Graph, a: Id) -> Id {
+    let (re, im) = (call(g, Prim::Re, a), call(g, Prim::Im, a));
+    let minus = g.neg(im);
+    g.apply(Prim::Complex, &[minus, re])
+}
+
 /// A function of one operand.
 pub fn call(g: &mut Graph, prim: Prim, a: Id) -> Id {
     g.apply(prim, &[a])
+}
+
+/// a, and 1 where a is 0: a divisor for a quotient that is to be 0 there.
+pub fn nonzero(g: &mut Graph, a: Id) -> Id {
+    let (zero, one) = (g.real(0.0), g.real(1.0));
+    let vanishes = g.apply(Prim::Equal, &[a, zero]);
+    g.apply(Prim::Select, &[vanishes, one, a])
 }
 
 /// √(1 - x) √(1 + x), whose branch cuts are those of asin and acos; for reals √((1 - x)(1 + x)).

@@ -2,7 +2,7 @@
 
 use naga::MathFunction;
 
-use super::derivative::{call, from, plus, reciprocal, square};
+use super::derivative::{call, from, plus, reciprocal, square, turn};
 use super::{Derivative, Gpu, Row, Typing, Weight};
 use crate::ir::{Graph, Id, Prim, Ty};
 use crate::reference::real;
@@ -132,8 +132,7 @@ fn asinh_partial(g: &mut Graph, args: &[Id], _: Id, _: usize) -> Id {
         let root = g.apply(Prim::Hypot, &[one, args[0]]);
         return reciprocal(g, root);
     }
-    let i = g.complex(0.0, 1.0);
-    let turned = g.mul(i, args[0]);
+    let turned = turn(g, args[0]);
     let (above, below) = (plus(g, turned, 1.0), from(g, 1.0, turned));
     let (above, below) = (call(g, Prim::Sqrt, above), call(g, Prim::Sqrt, below));
     let root = g.mul(above, below);

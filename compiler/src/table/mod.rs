@@ -21,6 +21,7 @@ use std::sync::OnceLock;
 use naga::{BinaryOperator, MathFunction, UnaryOperator};
 use rustc_hash::FxHashMap;
 
+pub(crate) use derivative::nonzero;
 pub use number::Number;
 pub use typing::Typing;
 

@@ -98,14 +98,13 @@ pub fn rows() -> Vec<Row> {
             typing: Typing::Real(2),
             real: Some(|a| real::modulo(a[0], a[1])),
             complex: None,
-            // ∂/∂a = 1, ∂/∂b = -floor(a/b)
-            derivative: Derivative::Partial(|g, args, _, k| {
+            // ∂/∂a = 1, ∂/∂b = -floor(a/b) = (mod(a, b) - a)/b: the floor of a rounded quotient can be off by one
+            derivative: Derivative::Partial(|g, args, value, k| {
                 if k == 0 {
                     return g.real(1.0);
                 }
-                let quotient = g.div(args[0], args[1]);
-                let floor = g.apply(Prim::Floor, &[quotient]);
-                g.neg(floor)
+                let difference = g.sub(value, args[0]);
+                g.div(difference, args[1])
             }),
             gpu: Gpu::Library("real_mod", None),
             gpu_complex: "",

@@ -2,7 +2,7 @@
 
 use naga::MathFunction;
 
-use super::derivative::{call, plus, reciprocal, sqrt_one_minus_square, square};
+use super::derivative::{call, plus, reciprocal, sqrt_one_minus_square, square, turn};
 use super::{Derivative, Gpu, Row, Typing, Weight};
 use crate::ir::{Graph, Id, Prim, Ty};
 use crate::reference::real;
@@ -178,8 +178,7 @@ fn atan_partial(g: &mut Graph, args: &[Id], _: Id, _: usize) -> Id {
         let sum = plus(g, square, 1.0);
         return reciprocal(g, sum);
     }
-    let i = g.complex(0.0, 1.0);
-    let turned = g.mul(i, args[0]);
+    let turned = turn(g, args[0]);
     let above = plus(g, turned, 1.0);
     let one = g.real(1.0);
     let below = g.sub(one, turned);

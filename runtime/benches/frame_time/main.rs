@@ -5,8 +5,9 @@
 //! `cargo bench -p pullback-runtime --bench frame_time -- [--adapter NAME] [--size WxH] [--samples N]
 //! [--only NAME] [--pictures FOLDER] [--markdown]`
 //!
-//! The executable carries all that it needs. Shaders take turns, frame by frame; times are medians. On hardware the
-//! device's timestamps are read, on software adapters the clock of the machine.
+//! The executable carries all that it needs. Shaders take turns, frame by frame. Times are medians; ratios are medians
+//! of the ratios in each turn, so that other work on the machine counts little. On hardware the device's timestamps are
+//! read, on software adapters the clock of the machine.
 
 mod cases;
 mod compare;
@@ -189,19 +190,22 @@ fn measure(
                 write_all(folder, case.name, options.size, &names, &drawn)?;
             }
         }
-        let times = medians(canvas, &stages, options.samples)?;
-        let time = |name| place(name).map(|k| times[k]);
+        let times = times(canvas, &stages, options.samples)?;
+        let of = |name| place(name).map(|k| &times[k]);
         let built: Vec<String> = stages
             .iter()
             .take(3)
             .map(|stage| format!("{:.0}", stage.built * 1e3))
             .collect();
-        let twin = time(TWIN);
-        let ratio = |name| match (time(name), twin) {
-            (Some(ours), Some(twin)) => format!("{:.2}", ours / twin),
+        let ratio = |name| match (of(name), of(TWIN)) {
+            (Some(ours), Some(twin)) => {
+                let turns = ours.iter().zip(twin).map(|(ours, twin)| ours / twin);
+                format!("{:.2}", median(turns.collect()))
+            }
             _ => String::new(),
         };
-        let milliseconds = |name| time(name).map_or(String::new(), |t| significant(t * 1e3));
+        let milliseconds =
+            |name| of(name).map_or(String::new(), |t| significant(median(t.clone()) * 1e3));
         frames.row(vec![
             case.name.into(),
             prepared.scene.into(),
@@ -231,8 +235,8 @@ fn significant(x: f64) -> String {
     format!("{x:.digits$}")
 }
 
-/// Seconds a frame of each stage, which take turns.
-fn medians(canvas: &Canvas, stages: &[Stage], samples: usize) -> Result<Vec<f64>, Error> {
+/// Seconds a frame of each stage in each turn.
+fn times(canvas: &Canvas, stages: &[Stage], samples: usize) -> Result<Vec<Vec<f64>>, Error> {
     let mut repeats = Vec::new();
     for stage in stages {
         let start = Instant::now();
@@ -253,7 +257,7 @@ fn medians(canvas: &Canvas, stages: &[Stage], samples: usize) -> Result<Vec<f64>
             times.push(canvas.time(stage, repeats)?);
         }
     }
-    Ok(all.into_iter().map(median).collect())
+    Ok(all)
 }
 
 fn median(mut times: Vec<f64>) -> f64 {

@@ -1,0 +1,134 @@
+//! Errors in units in the last place, and the classes of numbers that have none.
+
+use super::tables::Expected;
+
+/// A format that results are rounded to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// binary32; subnormal results may be zero.
+    Single,
+    /// binary64, of which only the range of binary32 is judged.
+    Double,
+}
+
+/// The least value that rounds to an infinity of binary32.
+pub const OVERFLOW: f64 = f32::MAX as f64 * (1.0 + 1.0 / (1u64 << 25) as f64);
+/// Tables write what is below this as a zero.
+const NOTHING: f64 = 1e-46;
+
+impl Format {
+    /// The unit in the last place of a number of this size.
+    #[must_use]
+    pub fn ulp(self, size: f64) -> f64 {
+        let (digits, least) = match self {
+            Self::Single => (23, -149),
+            Self::Double => (52, -1074),
+        };
+        let exponent = ((size.abs().to_bits() >> 52) as i32 - 1023).min(1023);
+        2f64.powi((exponent - digits).max(least))
+    }
+
+    /// Error of a result in units in the last place of what it should be, or of `size` where that is greater.
+    /// Infinite where the result is of the wrong class: a NaN for a number, a wrong infinity, a wrong sign of a
+    /// zero.
+    #[must_use]
+    pub fn error(self, got: f64, expected: Expected, size: f64) -> f64 {
+        let Expected::Number { value, signed } = expected else {
+            return 0.0;
+        };
+        let wrong = f64::INFINITY;
+        if value.is_nan() {
+            return if got.is_nan() { 0.0 } else { wrong };
+        }
+        if got.is_nan() {
+            return wrong;
+        }
+        let same_sign = !signed || got.is_sign_negative() == value.is_sign_negative();
+        let vanishes = match self {
+            Self::Single => got == 0.0 && value.abs() < f64::from(f32::MIN_POSITIVE),
+            Self::Double => got.abs() < NOTHING && value == 0.0,
+        };
+        if vanishes {
+            return if same_sign { 0.0 } else { wrong };
+        }
+        if value.is_infinite() {
+            let reached = match self {
+                Self::Single => got.is_infinite(),
+                Self::Double => got.abs() >= OVERFLOW,
+            };
+            return if reached && same_sign { 0.0 } else { wrong };
+        }
+        if got.is_infinite() && self == Self::Double {
+            return wrong;
+        }
+        let top = 2f64.powi(128);
+        let got = if got.is_infinite() {
+            top.copysign(got)
+        } else {
+            got
+        };
+        (got - value).abs() / self.ulp(value.abs().max(size.min(f64::from(f32::MAX))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(format: Format, got: f64, value: f64) -> f64 {
+        format.error(
+            got,
+            Expected::Number {
+                value,
+                signed: true,
+            },
+            0.0,
+        )
+    }
+
+    #[test]
+    fn classes_are_told_apart() {
+        let wrong = [
+            (0.0, -0.0),
+            (-0.0, 0.0),
+            (f64::NAN, 1.0),
+            (1.0, f64::NAN),
+            (f64::NEG_INFINITY, f64::INFINITY),
+            (3e38, f64::INFINITY),
+            (0.0, f64::NAN),
+        ];
+        for (got, value) in wrong {
+            assert_eq!(
+                error(Format::Single, got, value),
+                f64::INFINITY,
+                "{got} {value}"
+            );
+            assert_eq!(
+                error(Format::Double, got, value),
+                f64::INFINITY,
+                "{got} {value}"
+            );
+        }
+        assert_eq!(error(Format::Single, f64::NAN, f64::NAN), 0.0);
+        assert_eq!(error(Format::Single, -f64::INFINITY, -f64::INFINITY), 0.0);
+        assert_eq!(error(Format::Double, 1e300, f64::INFINITY), 0.0);
+        assert_eq!(error(Format::Single, 0.0, 1e-39), 0.0);
+        assert!(error(Format::Single, 0.0, 2e-38) > 1e6);
+        assert!(error(Format::Double, 0.0, 1e-39) > 1e6);
+    }
+
+    #[test]
+    fn errors_are_counted_in_units_in_the_last_place() {
+        assert_eq!(error(Format::Single, f64::from(1.0f32.next_up()), 1.0), 1.0);
+        assert_eq!(error(Format::Double, 1.0f64.next_up(), 1.0), 1.0);
+        assert_eq!(error(Format::Single, -1.0, 1.0), 2f64.powi(24));
+        let least = f64::from(f32::from_bits(1));
+        assert_eq!(error(Format::Single, 3.0 * least, least), 2.0);
+        assert!(error(Format::Single, f64::INFINITY, f64::from(f32::MAX)) <= 1.0);
+        let zero = Expected::Number {
+            value: 0.0,
+            signed: true,
+        };
+        assert_eq!(Format::Single.error(1.5 * 2f64.powi(-23), zero, 1.0), 1.5);
+    }
+}

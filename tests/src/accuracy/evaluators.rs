@@ -1,0 +1,121 @@
+//! The evaluators that the suites run: the `f64` reference, and a GPU.
+
+use pullback_compiler::formula::Formula;
+use pullback_compiler::lower::Precision;
+use pullback_compiler::{EvalModule, Evaluator, What};
+use pullback_runtime::evaluate::Surroundings;
+use pullback_runtime::{AdapterChoice, Error, Gpu, GpuEvaluator};
+
+use super::error::Format;
+
+/// Arguments and parameters of one evaluation.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// The arguments.
+    pub args: Vec<f64>,
+    /// Values of the program's parameters.
+    pub params: Vec<f64>,
+}
+
+/// Something that evaluates formulas.
+#[derive(Debug)]
+pub enum Machine {
+    /// The `f64` reference on the CPU.
+    Reference,
+    /// A GPU, by the functions of a tier.
+    Gpu(Box<Gpu>, Precision),
+}
+
+impl Machine {
+    /// The format of its results.
+    #[must_use]
+    pub fn format(&self) -> Format {
+        match self {
+            Self::Reference => Format::Double,
+            Self::Gpu(..) => Format::Single,
+        }
+    }
+
+    /// The columns that are asked for, at every point.
+    ///
+    /// # Errors
+    /// The formula has none of these on this machine; in words.
+    pub fn run(
+        &self,
+        formula: &Formula,
+        what: What,
+        points: &[Point],
+    ) -> Result<Vec<Vec<f64>>, String> {
+        match self {
+            Self::Reference => {
+                let mut evaluator = Evaluator::new(formula, what).map_err(|e| format!("{e:?}"))?;
+                let mut out = vec![0.0; evaluator.outputs().len()];
+                let row = |point: &Point| {
+                    evaluator.eval(&point.params, 0.0, 0.0, &point.args, &mut out);
+                    out.clone()
+                };
+                Ok(points.iter().map(row).collect())
+            }
+            Self::Gpu(gpu, precision) => {
+                let module =
+                    EvalModule::new(formula, what, *precision).map_err(|e| format!("{e:?}"))?;
+                on_gpu(gpu, &module, points).map_err(|e| e.to_string())
+            }
+        }
+    }
+}
+
+/// One dispatch for each run of points with the same parameters.
+fn on_gpu(gpu: &Gpu, module: &EvalModule, points: &[Point]) -> Result<Vec<Vec<f64>>, Error> {
+    let mut evaluator = GpuEvaluator::new(gpu, module)?;
+    let width = module.outputs.len();
+    let mut out = Vec::new();
+    for run in points.chunk_by(|a, b| a.params == b.params) {
+        let rows: Vec<f32> = run
+            .iter()
+            .flat_map(|p| p.args.iter().map(|&x| x as f32))
+            .collect();
+        let mut results = Vec::new();
+        let surroundings = Surroundings {
+            params: &run[0].params,
+            ..Surroundings::default()
+        };
+        evaluator.eval(surroundings, run.len(), &rows, &mut results)?;
+        out.extend(
+            results
+                .chunks(width)
+                .map(|row| row.iter().map(|&x| f64::from(x)).collect()),
+        );
+    }
+    Ok(out)
+}
+
+/// The GPU that the suites run on: the one that `PULLBACK_ADAPTER` names, else the reference adapter, lavapipe,
+/// else the best. `None` where there is none and `PULLBACK_ALLOW_NO_GPU` is 1, which is printed.
+///
+/// # Panics
+/// There is no adapter and none may be missing.
+#[must_use]
+pub fn suite_gpu() -> Option<Gpu> {
+    let opened = match std::env::var("PULLBACK_ADAPTER") {
+        Ok(name) => Gpu::open(&name.parse().unwrap_or_default()),
+        Err(_) => Gpu::open(&AdapterChoice::Software).or_else(|_| Gpu::open(&AdapterChoice::Auto)),
+    };
+    match opened {
+        Ok(gpu) => {
+            println!("adapter: {}", gpu.adapter());
+            Some(gpu)
+        }
+        Err(error) if std::env::var("PULLBACK_ALLOW_NO_GPU").as_deref() == Ok("1") => {
+            println!("SKIPPED: nothing was tested on a GPU: {error}");
+            None
+        }
+        Err(error) => panic!("{error}; set PULLBACK_ALLOW_NO_GPU=1 to do without a GPU"),
+    }
+}
+
+/// Whether bounds are held to be tight on this adapter.
+#[must_use]
+pub fn is_reference_adapter(gpu: &Gpu) -> bool {
+    gpu.adapter().name.contains("llvmpipe")
+}

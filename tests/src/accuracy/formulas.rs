@@ -1,0 +1,280 @@
+//! Formulas with tables that state their error scale: the gallery, and the library of the language.
+
+use pullback_compiler::What;
+use pullback_compiler::formula::Formula;
+use pullback_compiler::types::Type;
+
+use super::error::{Format, OVERFLOW};
+use super::evaluators::{Machine, Point};
+use super::subjects::formula;
+
+/// A formula with its rows.
+#[derive(Debug)]
+pub struct Table {
+    /// The function that it covers, or its name in the gallery.
+    pub name: &'static str,
+    /// The program.
+    pub source: String,
+    /// Names of the columns.
+    columns: Vec<&'static str>,
+    rows: Vec<Vec<&'static str>>,
+}
+
+/// The greatest error factor that any formula may have, on any machine.
+pub const MOST: f64 = 2.0;
+
+/// Error factors of a formula: the least K with |computed - reference| <= 2 K u scale + 2⁻¹²⁶.
+#[derive(Clone, Debug, Default)]
+pub struct Factors {
+    /// Of the value.
+    pub value: f64,
+    /// Of the derivatives.
+    pub derivative: f64,
+    /// Rows that were judged.
+    pub rows: usize,
+    /// Where the greater of both was met, in words.
+    pub worst: String,
+    /// Rows that are no numbers, or numbers where there are none.
+    pub wrong: Vec<String>,
+}
+
+macro_rules! gallery {
+    ($($name:literal),* $(,)?) => {
+        [$((
+            $name,
+            include_str!(concat!("../../../docs/gallery/", $name, ".pull")),
+            include_str!(concat!("../../data/gallery/", $name, ".tsv")),
+        )),*]
+    };
+}
+
+const GALLERY: [(&str, &str, &str); 36] = gallery![
+    "barth-sextic",
+    "bipolar",
+    "blaschke",
+    "branch-cut",
+    "cardinal-sine",
+    "cayley",
+    "chladni",
+    "chmutov",
+    "clebsch",
+    "ding-dong",
+    "dipole",
+    "dome",
+    "essential",
+    "gyroid",
+    "heart",
+    "himmelblau",
+    "interference",
+    "joukowski",
+    "kummer",
+    "lemniscate",
+    "newton",
+    "norms",
+    "peaks",
+    "rational",
+    "saddle",
+    "schwarz-p",
+    "sin-rings",
+    "smooth-union",
+    "spiral",
+    "steiner",
+    "tangent",
+    "tangent-weave",
+    "tanglecube",
+    "torus",
+    "twirl",
+    "z-to-z",
+];
+
+const LIBRARY: &str = include_str!("../../data/functions/library.txt");
+
+/// The formulas of the gallery.
+#[must_use]
+pub fn gallery() -> Vec<Table> {
+    let table = |&(name, source, text): &(&'static str, &'static str, &'static str)| {
+        let mut lines = text.lines().skip(1);
+        let columns = columns(lines.next().unwrap_or(""));
+        let rows = lines.map(|line| line.split('\t').collect()).collect();
+        Table {
+            name,
+            source: source.to_owned(),
+            columns,
+            rows,
+        }
+    };
+    GALLERY.iter().map(table).collect()
+}
+
+/// Formulas that cover the library of the language, and the functions on vectors.
+#[must_use]
+pub fn library() -> Vec<Table> {
+    let mut tables: Vec<Table> = Vec::new();
+    for line in LIBRARY.lines() {
+        match (line.strip_prefix("# "), tables.last_mut()) {
+            (Some(title), _) if title.contains(" | ") => {
+                let (name, source) = title.split_once(" | ").unwrap_or((title, ""));
+                let source = source.replace("f(x) =", "f(x: real) =") + "\n";
+                tables.push(Table {
+                    name,
+                    source,
+                    columns: Vec::new(),
+                    rows: Vec::new(),
+                });
+            }
+            (Some(_), Some(table)) => table.columns = columns(line),
+            (None, Some(table)) => table.rows.push(line.split('\t').collect()),
+            (_, None) => {}
+        }
+    }
+    tables
+}
+
+fn columns(line: &'static str) -> Vec<&'static str> {
+    line.trim_start_matches("# ").split('\t').collect()
+}
+
+/// A group of columns that make up one number, with the place of its scale.
+struct Quantity {
+    places: std::ops::Range<usize>,
+    scale: usize,
+}
+
+impl Table {
+    fn place(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|c| *c == name)
+    }
+
+    /// The columns from `first` on that a scale is stated for, in the order of the evaluators' results.
+    fn quantities(&self) -> Vec<Quantity> {
+        let scales = self.columns.iter().enumerate().filter_map(|(k, c)| {
+            let name = c.strip_prefix("scale_")?;
+            Some((k, name))
+        });
+        scales
+            .map(|(scale, name)| {
+                let re = self.place(&format!("{name}.re"));
+                let first = re.or_else(|| self.place(name)).unwrap_or(0);
+                let width = if re.is_some() { 2 } else { 1 };
+                Quantity {
+                    places: first..first + width,
+                    scale,
+                }
+            })
+            .collect()
+    }
+
+    /// Runs every row on a machine. Complex numbers are judged by norm: the scale is that of the whole number.
+    ///
+    /// # Errors
+    /// The machine cannot evaluate it; in words.
+    pub fn measure(&self, machine: &Machine) -> Result<Factors, String> {
+        let (formula, params) = self.formula();
+        let arity = self
+            .place("f")
+            .or_else(|| self.place("f.re"))
+            .ok_or("no value column")?;
+        let points: Vec<Point> = self
+            .rows
+            .iter()
+            .map(|row| Point {
+                args: row[..arity].iter().map(|c| number(c)).collect(),
+                params: params.clone(),
+            })
+            .collect();
+        let complex = formula.inputs.iter().any(|i| i.ty == Type::Complex);
+        let demand = if complex {
+            What::Derivative
+        } else {
+            What::Gradient
+        };
+        let values = machine.run(&formula, What::Value, &points)?;
+        let slopes = machine.run(&formula, demand, &points)?;
+        let mut factors = Factors::default();
+        for ((row, value), slope) in self.rows.iter().zip(&values).zip(&slopes) {
+            self.judge(row, value, slope, arity, machine.format(), &mut factors);
+        }
+        Ok(factors)
+    }
+
+    fn formula(&self) -> (Formula, Vec<f64>) {
+        let params = pullback_compiler::compile(&self.source)
+            .program
+            .map(|p| p.params().iter().map(|p| p.default).collect())
+            .unwrap_or_default();
+        (formula(&self.source), params)
+    }
+
+    fn judge(
+        &self,
+        row: &[&'static str],
+        value: &[f64],
+        slopes: &[f64],
+        arity: usize,
+        format: Format,
+        factors: &mut Factors,
+    ) {
+        let notes = row.last().copied().unwrap_or("");
+        if notes.contains("coarse") || format == Format::Single && notes.contains("overflow") {
+            return;
+        }
+        factors.rows += 1;
+        for (k, quantity) in self.quantities().into_iter().enumerate() {
+            let expected: Vec<f64> = quantity
+                .places
+                .clone()
+                .map(|place| number(row[place]))
+                .collect();
+            if expected.iter().any(|e| e.is_nan() || e.abs() >= OVERFLOW) {
+                continue;
+            }
+            let results = if k == 0 { value } else { slopes };
+            let place = |k: usize| results.get(quantity.places.start - arity + k);
+            let norm = (0..expected.len()).fold(0.0f64, |sum, k| {
+                sum.hypot(place(k).map_or(0.0, |got| got - expected[k]))
+            });
+            let describe = || {
+                format!(
+                    "{} at {:?}: {results:?} for {expected:?}",
+                    self.columns[quantity.places.start],
+                    &row[..arity]
+                )
+            };
+            let Some(factor) = factor(norm, number(row[quantity.scale]), format) else {
+                factors.wrong.push(describe());
+                continue;
+            };
+            if factor > factors.value.max(factors.derivative) {
+                factors.worst = describe();
+            }
+            let slot = if k == 0 {
+                &mut factors.value
+            } else {
+                &mut factors.derivative
+            };
+            *slot = slot.max(factor);
+        }
+    }
+}
+
+/// The least K for an error; `None` for what no K allows.
+fn factor(error: f64, scale: f64, format: Format) -> Option<f64> {
+    // scales are written with three digits; references with twenty, of which f64 keeps sixteen
+    let (unit, slack) = match format {
+        Format::Single => (2f64.powi(-24), f64::from(f32::MIN_POSITIVE)),
+        Format::Double => (2f64.powi(-53), 1e-45),
+    };
+    let excess = error - slack;
+    if excess.is_nan() || excess.is_infinite() {
+        return None;
+    }
+    if excess <= 0.0 {
+        return Some(0.0);
+    }
+    (scale > 0.0).then(|| excess / (2.0 * unit * scale))
+}
+
+fn number(cell: &str) -> f64 {
+    cell.parse()
+        .unwrap_or_else(|_| panic!("`{cell}` is not a number"))
+}

@@ -1,0 +1,243 @@
+//! One function on one machine: the largest errors of its value and derivative.
+
+use pullback_compiler::What;
+use pullback_compiler::table::Derivative;
+
+use super::error::Format;
+use super::evaluators::{Machine, Point};
+use super::subjects::{Subject, formula};
+use super::sweep;
+use super::tables::{Case, Domain, Expected};
+
+/// How an error is divided.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Metric {
+    /// By the unit in the last place of each component.
+    #[default]
+    Component,
+    /// By that of the greatest component of the result.
+    Norm,
+    /// By that of the greatest component of the result, or of 1 where that is greater: an absolute error where the
+    /// result is small.
+    Unit,
+}
+
+impl Metric {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Component, Self::Norm, Self::Unit];
+
+    /// Its word in the table of bounds.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Component => "",
+            Self::Norm => "norm",
+            Self::Unit => "unit",
+        }
+    }
+}
+
+/// Errors over all cases.
+#[derive(Clone, Debug, Default)]
+pub struct Errors {
+    /// One error for each case, the largest of its components.
+    errors: Vec<f64>,
+    largest: f64,
+    /// The case of the largest error, in words.
+    pub worst: String,
+    /// Cases of the wrong class, in words.
+    pub wrong: Vec<String>,
+}
+
+impl Errors {
+    fn add(&mut self, error: f64, describe: impl FnOnce() -> String) {
+        if error.is_infinite() {
+            self.wrong.push(describe());
+            return;
+        }
+        if self.errors.is_empty() || error > self.largest {
+            self.worst = describe();
+            self.largest = error;
+        }
+        self.errors.push(error);
+    }
+
+    /// Cases that were judged.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.errors.len() + self.wrong.len()
+    }
+
+    /// The largest error, of those that are finite.
+    #[must_use]
+    pub fn max(&self) -> f64 {
+        self.largest
+    }
+
+    /// The error that one case in a hundred is above.
+    #[must_use]
+    pub fn percentile(&self) -> f64 {
+        let mut sorted = self.errors.clone();
+        sorted.sort_by(f64::total_cmp);
+        let place = (sorted.len() * 99).div_ceil(100).saturating_sub(1);
+        sorted.get(place).copied().unwrap_or(0.0)
+    }
+}
+
+/// Both quantities in every metric, in the order of [`Metric::ALL`].
+#[derive(Clone, Debug, Default)]
+pub struct Measured {
+    /// Of the value.
+    pub value: [Errors; 3],
+    /// Of the derivative; `None` where the function has no derivative rule.
+    pub derivative: Option<[Errors; 3]>,
+}
+
+/// What is asked to get a subject's derivative.
+pub(super) fn demand(subject: &Subject) -> What {
+    if subject.domain == Domain::Real && subject.cases.iter().any(|c| c.args.len() > 1) {
+        What::Gradient
+    } else {
+        What::Derivative
+    }
+}
+
+/// Runs every case of a function, its value alone and its derivative.
+///
+/// # Errors
+/// The machine cannot evaluate it; in words.
+pub fn measure(subject: &Subject, machine: &Machine) -> Result<Measured, String> {
+    let formula = formula(&subject.source);
+    let points: Vec<Point> = subject
+        .cases
+        .iter()
+        .map(|c| Point {
+            args: c.args.clone(),
+            params: c.params.clone(),
+        })
+        .collect();
+    let columns = formula.ty.columns();
+    let values = machine.run(&formula, What::Value, &points)?;
+    let judged = |results: &[Vec<f64>], from: usize, of: fn(&Case) -> &[Expected]| {
+        Metric::ALL.map(|metric| judge(subject, machine.format(), results, from, of, metric))
+    };
+    let value = judged(&values, 0, |c| &c.value);
+    if matches!(subject.row.derivative, Derivative::Missing) {
+        return match machine.run(&formula, demand(subject), &points) {
+            Ok(_) => Err("there is a derivative, but no rule".to_owned()),
+            Err(_) => Ok(Measured {
+                value,
+                derivative: None,
+            }),
+        };
+    }
+    let slopes = machine.run(&formula, demand(subject), &points)?;
+    // where the value of binary32 overflows, what is computed from it is not judged
+    let slopes_of: fn(&Case) -> &[Expected] = |case| {
+        if case.value.iter().any(overflows) {
+            &[]
+        } else {
+            &case.derivative
+        }
+    };
+    let derivative = Some(judged(&slopes, columns, slopes_of));
+    Ok(Measured { value, derivative })
+}
+
+fn judge(
+    subject: &Subject,
+    format: Format,
+    results: &[Vec<f64>],
+    from: usize,
+    of: fn(&Case) -> &[Expected],
+    metric: Metric,
+) -> Errors {
+    let mut errors = Errors::default();
+    for (case, result) in subject.cases.iter().zip(results) {
+        let got = &result[from..];
+        if of(case).iter().all(|e| *e == Expected::Unstated) {
+            continue;
+        }
+        let mut error = case_error(format, got, of(case), metric);
+        if case.notes == sweep::NOTE
+            && subject.domain == Domain::Complex
+            && of(case).iter().any(overflows)
+        {
+            // an infinite complex number has no direction that counts (C99 Annex G.3)
+            let infinite = got.iter().take(of(case).len()).any(|x| !x.is_finite());
+            error = if infinite { 0.0 } else { f64::INFINITY };
+        }
+        if format == Format::Single
+            && let Some(flushed) = flushed(subject, case)
+        {
+            error = error.min(case_error(format, got, of(flushed), metric));
+        }
+        errors.add(error, || {
+            format!(
+                "{}{:?} at {:?}{:?}: {:?} for {}",
+                subject.word,
+                subject.domain,
+                case.args,
+                case.params,
+                got,
+                words(of(case))
+            )
+        });
+    }
+    errors
+}
+
+fn case_error(format: Format, got: &[f64], expected: &[Expected], metric: Metric) -> f64 {
+    let size = match metric {
+        Metric::Component => 0.0,
+        Metric::Norm => expected.iter().map(size).fold(0.0, f64::max),
+        Metric::Unit => expected.iter().map(size).fold(1.0, f64::max),
+    };
+    got.iter()
+        .zip(expected)
+        .map(|(&got, &e)| format.error(got, e, size))
+        .fold(0.0, f64::max)
+}
+
+fn overflows(expected: &Expected) -> bool {
+    matches!(expected, Expected::Number { value, .. } if value.is_infinite())
+}
+
+fn size(expected: &Expected) -> f64 {
+    match expected {
+        Expected::Number { value, .. } if value.is_finite() => value.abs(),
+        _ => 0.0,
+    }
+}
+
+/// The case whose subnormal arguments are zeros of the same sign: a GPU may take them for that.
+fn flushed<'s>(subject: &'s Subject, case: &Case) -> Option<&'s Case> {
+    let least = f64::from(f32::MIN_POSITIVE);
+    let flush = |x: &f64| {
+        if x.abs() < least {
+            0f64.copysign(*x)
+        } else {
+            *x
+        }
+    };
+    let args: Vec<f64> = case.args.iter().map(flush).collect();
+    let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
+    if same(&args, &case.args) {
+        return None;
+    }
+    subject
+        .cases
+        .iter()
+        .find(|c| same(&c.args, &args) && c.params == case.params)
+}
+
+fn words(expected: &[Expected]) -> String {
+    let each = |e: &Expected| match e {
+        Expected::Unstated => "-".to_owned(),
+        Expected::Number { value, .. } => format!("{value:?}"),
+    };
+    format!(
+        "[{}]",
+        expected.iter().map(each).collect::<Vec<_>>().join(", ")
+    )
+}
