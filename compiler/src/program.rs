@@ -1,12 +1,13 @@
 //! A whole program: its parameters and the pictures that it shows.
 
 use pullback_grammar::ast::{Expr, ExprId, File, Function, Item, Param, Show};
+use pullback_grammar::diagnostic::limit;
 use pullback_grammar::{Diagnostic, Span};
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::check::{
-    Builder, Symbols, Value, check_names, free_variables, is_builtin_function, nearest,
+    Builder, MAX_PARAMS, Symbols, Value, check_names, free_variables, is_builtin_function, nearest,
     not_constant, quoted, shortened, signature,
 };
 use crate::formula::{Formula, Input, argument_value, scalar_types};
@@ -107,6 +108,9 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
     let file = &parsed.file;
     let symbols = Symbols::collect(file, &mut diagnostics);
     check_names(file, &symbols, &mut diagnostics);
+    let in_order = |d: &Diagnostic| d.span;
+    diagnostics.sort_by_key(in_order);
+    limit(&mut diagnostics);
     let mut checker = Checker {
         file,
         symbols: &symbols,
@@ -132,7 +136,7 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
         (a.span, a.severity, a.code, &a.message).cmp(&(b.span, b.severity, b.code, &b.message))
     });
     diagnostics.dedup_by(|a, b| a.span == b.span && a.code == b.code && a.message == b.message);
-    pullback_grammar::diagnostic::limit(&mut diagnostics);
+    limit(&mut diagnostics);
     let program = (!failed && !pictures.is_empty()).then_some(Program { params, pictures });
     Compilation {
         program,
@@ -148,6 +152,9 @@ const GENERIC: [Type; 5] = [
     Type::Vector(3),
     Type::Vector(4),
 ];
+
+/// Greatest number of `show` statements of a program.
+pub const MAX_SHOWS: usize = 64;
 
 /// Greatest number of times that such functions are built, all together.
 const MAX_ATTEMPTS: usize = 2000;
@@ -191,7 +198,11 @@ impl<'a> Checker<'a> {
             Item::Param(param) => Some(param),
             _ => None,
         });
-        params.map(|param| self.param(param)).collect()
+        // more have been refused
+        params
+            .take(MAX_PARAMS)
+            .map(|param| self.param(param))
+            .collect()
     }
 
     fn param(&mut self, param: &'a Param) -> ParamInfo {
@@ -311,8 +322,19 @@ impl<'a> Checker<'a> {
         if shows.is_empty() {
             return self.default_picture().into_iter().collect();
         }
+        if let Some(show) = shows.get(MAX_SHOWS) {
+            self.diagnostics.push(
+                Diagnostic::error(
+                    "too-many-shows",
+                    show.span,
+                    format!("more than {MAX_SHOWS} pictures"),
+                )
+                .with_hint("put some of them into a program of their own"),
+            );
+        }
         shows
             .into_iter()
+            .take(MAX_SHOWS)
             .filter_map(|show| self.picture(show))
             .collect()
     }
@@ -431,6 +453,8 @@ impl<'a> Checker<'a> {
                     .map(|t| t.or_else(|| choices.next()).unwrap_or(first))
                     .collect();
                 let mut builder = self.attempt(function, &types);
+                // a large function counts as many
+                *attempts = attempts.saturating_sub(builder.graph.nodes().len() / 1000);
                 if builder.graph.budget().is_err() {
                     return;
                 }

@@ -90,9 +90,11 @@ const TOO_MANY: &str = "too-many-problems";
 
 /// Keeps the first errors and the first warnings, and says at the end where there are more.
 pub fn limit(diagnostics: &mut Vec<Diagnostic>) {
+    let before: Vec<Diagnostic> = diagnostics.extract_if(.., |d| d.code == TOO_MANY).collect();
     for (severity, noun) in [(Severity::Error, "errors"), (Severity::Warning, "warnings")] {
         let of_kind = |d: &Diagnostic| d.severity == severity && d.code != TOO_MANY;
         if diagnostics.iter().filter(|d| of_kind(d)).count() <= MAX_DIAGNOSTICS {
+            diagnostics.extend(before.iter().filter(|d| d.severity == severity).cloned());
             continue;
         }
         let mut kept = 0;

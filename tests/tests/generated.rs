@@ -300,6 +300,36 @@ fn many_mistakes_are_counted_not_listed() {
 }
 
 #[test]
+fn many_definitions_take_linear_time() {
+    let locals: Vec<String> = (0..20_000).map(|k| format!("a{k} = x + {k}")).collect();
+    check("locals", format!("f(x, y) = y + a0 where {}", locals.join(", ")), &[&[]]);
+    let mut unknown = "f(x, y) = x".to_owned();
+    let mut defined = String::new();
+    for k in 0..10_000 {
+        let _ = write!(unknown, " + unknown{k}");
+        let _ = writeln!(defined, "defined{k} = {k}");
+    }
+    answer("unknown beside defined", format!("{defined}{unknown}"));
+    let mut functions = String::new();
+    for k in 0..10_000 {
+        let _ = writeln!(functions, "g{k}(a, b) = a.x + (b < 1)");
+    }
+    answer("unused functions with errors", format!("{functions}x + y"));
+    answer("formulas", "x + y\n".repeat(50_000));
+    let shows = "show levels(x y)\n".repeat(10_000);
+    check("shows", shows, &[&["too-many-shows"]]);
+    answer("params", "param a = 1\n".repeat(50_000));
+    let settings = "height = 2, ".repeat(50_000);
+    answer("settings", format!("show levels(x y) {{ {settings} }}"));
+    // unused functions that explode must not each use up the budget
+    let mut explosive = "g0(x) = sin(x)\n".to_owned();
+    for k in 1..=300 {
+        let _ = writeln!(explosive, "g{k}(x) = g{0}(x + 1) + g{0}(x^2 - {k})", (k - 1) % 30);
+    }
+    answer("explosive unused functions", format!("{explosive}x + y"));
+}
+
+#[test]
 fn bytes_that_are_no_text() {
     let check = |bytes: &[u8], hint: &str| {
         let found = compile_bytes(bytes);

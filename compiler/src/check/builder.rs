@@ -7,6 +7,7 @@ use smallvec::SmallVec;
 
 use super::builtins::advice;
 use super::names::MAX_CALL_DEPTH;
+use super::scope::Scope;
 use super::suggest::quoted;
 use super::symbols::Symbols;
 use super::{Value, library, named_constant};
@@ -35,7 +36,7 @@ pub struct Builder<'a> {
     pub(super) symbols: &'a Symbols<'a>,
     pub(super) file: &'a File,
     pub(super) source: Source,
-    pub(super) scope: Vec<(&'a str, Value)>,
+    pub(super) scope: Scope<'a, Value>,
     pub(super) depth: usize,
     /// Functions and constants whose values are being built.
     pub(super) active: Vec<&'a str>,
@@ -54,7 +55,7 @@ impl<'a> Builder<'a> {
             symbols,
             file: program,
             source: Source::Program,
-            scope: Vec::new(),
+            scope: Scope::default(),
             depth: 0,
             active: Vec::new(),
             calls: FxHashMap::default(),
@@ -77,7 +78,7 @@ impl<'a> Builder<'a> {
 
     /// Defines a name for what is built next, such as an input of a formula.
     pub fn define(&mut self, name: &'a str, value: Value) {
-        self.scope.push((name, value));
+        self.scope.push(name, value);
     }
 
     /// Builds an expression of the current text.
@@ -160,7 +161,7 @@ impl<'a> Builder<'a> {
         for (name, value) in locals {
             let value = self.expr(*value);
             self.name_value(&name.text, &value);
-            self.scope.push((&name.text, value));
+            self.scope.push(&name.text, value);
         }
         let value = self.expr(body);
         self.scope.truncate(depth);
@@ -188,7 +189,7 @@ impl<'a> Builder<'a> {
 
     fn name(&mut self, name: &'a Name) -> Value {
         let text = name.text.as_str();
-        if let Some((_, value)) = self.scope.iter().rev().find(|(n, _)| *n == text) {
+        if let Some(value) = self.scope.get(text) {
             return value.clone();
         }
         if self.source == Source::Program {
@@ -217,7 +218,7 @@ impl<'a> Builder<'a> {
         if self.active.contains(&name) {
             return Value::Error;
         }
-        let value = self.outside(name, Source::Program, Vec::new(), body);
+        let value = self.outside(name, Source::Program, Scope::default(), body);
         self.name_value(name, &value);
         self.constants.insert(name, value.clone());
         value
@@ -228,7 +229,7 @@ impl<'a> Builder<'a> {
         &mut self,
         name: &'a str,
         source: Source,
-        scope: Vec<(&'a str, Value)>,
+        scope: Scope<'a, Value>,
         body: ExprId,
     ) -> Value {
         // longer chains have been reported by the pass over names

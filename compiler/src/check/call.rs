@@ -6,6 +6,7 @@ use smallvec::SmallVec;
 
 use super::builtins::advice;
 use super::names::signature;
+use super::scope::Scope;
 use super::suggest::quoted;
 use super::{Builder, Source, Value, builtins, library};
 use crate::ir::{Prim, Ty};
@@ -97,7 +98,7 @@ impl<'a> Builder<'a> {
         if let Some(value) = self.calls.get(&key) {
             return value.clone();
         }
-        let scope: Vec<(&'a str, Value)> = function
+        let scope: Scope<'a, Value> = function
             .params
             .iter()
             .map(|p| p.name.text.as_str())

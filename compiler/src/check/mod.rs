@@ -6,6 +6,7 @@ mod call;
 mod library;
 mod names;
 mod operators;
+mod scope;
 mod suggest;
 mod symbols;
 mod value;
@@ -15,7 +16,7 @@ pub use builtins::{Builtin, builtins};
 pub use library::{LibraryFunction, library_functions};
 pub use names::{check_names, free_variables, not_constant, signature};
 pub use suggest::{nearest, quoted, shortened};
-pub use symbols::Symbols;
+pub use symbols::{MAX_PARAMS, Symbols};
 pub use value::Value;
 
 use crate::table;

@@ -1,9 +1,11 @@
 //! Names: every name that is used must mean something, and no definition may need itself.
 
 use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Name, Setting};
+use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::scope::Scope;
 use super::suggest::{quoted, shortened};
 use super::symbols::reserved;
 use super::{
@@ -65,7 +67,7 @@ struct Walk<'a, 'd> {
     exprs: &'a Exprs,
     symbols: &'d Symbols<'a>,
     diagnostics: &'d mut Vec<Diagnostic>,
-    scope: Vec<&'a str>,
+    scope: Scope<'a, ()>,
     /// Locals whose definitions come later.
     pending: Vec<&'a Name>,
     /// Whether free variables are inputs.
@@ -89,7 +91,7 @@ impl<'a, 'd> Walk<'a, 'd> {
             exprs,
             symbols,
             diagnostics,
-            scope: Vec::new(),
+            scope: Scope::default(),
             pending: Vec::new(),
             in_formula: false,
             fixed: None,
@@ -127,10 +129,10 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.scope = function
             .params
             .iter()
-            .map(|p| p.name.text.as_str())
+            .map(|p| (p.name.text.as_str(), ()))
             .collect();
         self.definition(&function.name.text, function.body);
-        self.scope.clear();
+        self.scope.truncate(0);
     }
 
     fn definition(&mut self, name: &'a str, body: ExprId) {
@@ -220,7 +222,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         let depth = self.scope.len();
         for &arg in args.iter().skip(1) {
             if let Expr::Name(name) = &self.exprs[arg] {
-                self.scope.push(&name.text);
+                self.scope.push(&name.text, ());
             }
         }
         for &arg in args {
@@ -250,7 +252,7 @@ impl<'a, 'd> Walk<'a, 'd> {
             }
             self.expr(*value);
             self.pending.pop();
-            self.scope.push(&name.text);
+            self.scope.push(&name.text, ());
         }
         self.pending.truncate(pending);
         self.expr(body);
@@ -258,7 +260,7 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 
     fn is_value(&self, name: &str) -> bool {
-        self.scope.contains(&name)
+        self.scope.get(name).is_some()
             || self.symbols.constants.contains_key(name)
             || self.symbols.params.contains_key(name)
             || is_builtin_value(name)
@@ -266,7 +268,7 @@ impl<'a, 'd> Walk<'a, 'd> {
 
     fn name(&mut self, name: &'a Name) {
         let text = name.text.as_str();
-        if self.scope.contains(&text) {
+        if self.scope.get(text).is_some() {
             return;
         }
         if self.symbols.constants.contains_key(text) {
@@ -336,6 +338,10 @@ impl<'a, 'd> Walk<'a, 'd> {
             .with_related(local.span, "defined here")
             .with_hint("each local sees those before it: move the definition up");
         }
+        if self.diagnostics.len() > MAX_DIAGNOSTICS {
+            // will not be listed
+            return problem;
+        }
         let inputs: &[&str] = if self.in_formula { &FREE_NAMES } else { &[] };
         if let Some(product) = self.as_product(text) {
             return problem.with_hint(format!("for a product write `{product}`"));
@@ -345,8 +351,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
         let candidates = self
             .scope
-            .iter()
-            .copied()
+            .names()
             .chain(self.symbols.names())
             .chain(inputs.iter().copied())
             .chain(["pi", "tau", "phi", "e", "time", "pixel"]);
@@ -400,7 +405,7 @@ impl<'a, 'd> Walk<'a, 'd> {
             is_builtin_function(function) && (self.is_value(argument) || is_input)
         };
         let (function, argument) = splits.find(is_call)?;
-        Some(format!("{function}({argument})"))
+        Some(format!("{function}({})", shortened(argument)))
     }
 
     fn usage(&self, name: &str) -> String {
@@ -460,6 +465,10 @@ impl<'a, 'd> Walk<'a, 'd> {
             format!("unknown function {}", quoted(text)),
         )
         .with_label("not defined");
+        if self.diagnostics.len() > MAX_DIAGNOSTICS {
+            // will not be listed
+            return problem;
+        }
         let known = table::rows()
             .iter()
             .flat_map(|r| r.names.iter().copied())

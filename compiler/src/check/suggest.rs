@@ -1,10 +1,13 @@
 //! The nearest name to a misspelt one.
 
+/// Most names that are compared, so that programs with very many names are answered soon.
+const MAX_CANDIDATES: usize = 1000;
+
 /// The candidate nearest to `name`, if it is near enough to be meant: by case, or by at most one edit for each
 /// three letters (optimal string alignment distance: insertions, deletions, changes and swaps of neighbours).
 #[must_use]
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let letters: Vec<char> = name.chars().take(64).collect();
+    let letters = folded(name);
     // one letter is another name, not a slip
     let limit = if letters.len() > 1 {
         letters.len().div_ceil(3)
@@ -13,16 +16,24 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     };
     candidates
         .into_iter()
-        .filter(|c| *c != name)
-        .map(|c| {
-            (
-                distance(&letters, &c.chars().take(64).collect::<Vec<_>>()),
-                c,
-            )
+        .take(MAX_CANDIDATES)
+        .filter(|c| *c != name && c.len().abs_diff(name.len()) <= 4 * limit)
+        .filter_map(|c| {
+            let other = folded(c);
+            if other.len().abs_diff(letters.len()) > limit {
+                return None;
+            }
+            let distance = distance(&letters, &other);
+            let longest = other.len().max(letters.len());
+            (distance <= limit && distance < longest).then_some((distance, c))
         })
-        .filter(|(d, c)| *d <= limit && *d < c.chars().count().max(letters.len()))
         .min_by_key(|(d, c)| (*d, c.len(), *c))
         .map(|(_, c)| c)
+}
+
+/// The beginning of a name without the difference of small and capital letters.
+fn folded(name: &str) -> Vec<char> {
+    name.chars().take(64).flat_map(char::to_lowercase).collect()
 }
 
 /// A name in backquotes, cut where it is long.
@@ -42,17 +53,16 @@ pub fn shortened(name: &str) -> String {
 }
 
 fn distance(a: &[char], b: &[char]) -> usize {
-    let same = |x: char, y: char| x.to_lowercase().eq(y.to_lowercase());
     let mut before: Vec<usize> = vec![0; b.len() + 1];
     let mut above: Vec<usize> = (0..=b.len()).collect();
     for i in 1..=a.len() {
         let mut row = vec![i; b.len() + 1];
         for j in 1..=b.len() {
-            let change = usize::from(!same(a[i - 1], b[j - 1]));
+            let change = usize::from(a[i - 1] != b[j - 1]);
             row[j] = (above[j] + 1)
                 .min(row[j - 1] + 1)
                 .min(above[j - 1] + change);
-            if i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]) {
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
                 row[j] = row[j].min(before[j - 2] + 1);
             }
         }
