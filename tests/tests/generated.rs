@@ -302,7 +302,11 @@ fn many_mistakes_are_counted_not_listed() {
 #[test]
 fn many_definitions_take_linear_time() {
     let locals: Vec<String> = (0..20_000).map(|k| format!("a{k} = x + {k}")).collect();
-    check("locals", format!("f(x, y) = y + a0 where {}", locals.join(", ")), &[&[]]);
+    check(
+        "locals",
+        format!("f(x, y) = y + a0 where {}", locals.join(", ")),
+        &[&[]],
+    );
     let mut unknown = "f(x, y) = x".to_owned();
     let mut defined = String::new();
     for k in 0..10_000 {
@@ -324,7 +328,11 @@ fn many_definitions_take_linear_time() {
     // unused functions that explode must not each use up the budget
     let mut explosive = "g0(x) = sin(x)\n".to_owned();
     for k in 1..=300 {
-        let _ = writeln!(explosive, "g{k}(x) = g{0}(x + 1) + g{0}(x^2 - {k})", (k - 1) % 30);
+        let _ = writeln!(
+            explosive,
+            "g{k}(x) = g{0}(x + 1) + g{0}(x^2 - {k})",
+            (k - 1) % 30
+        );
     }
     answer("explosive unused functions", format!("{explosive}x + y"));
 }
