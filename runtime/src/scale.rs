@@ -1,5 +1,6 @@
 //! The colour scale of a picture that does not state one.
 
+use glam::DVec3;
 use pullback_compiler::module::{Evaluator, What};
 use pullback_compiler::{Picture, SettingValue};
 
@@ -48,7 +49,7 @@ pub fn fill_in_scale(
     sizes.retain(|s| *s > 0.0);
     sizes.sort_by(f64::total_cmp);
     let scale = share(&sizes, SHARES.0).max(share(&sizes, SHARES.1) / 4.0);
-    setting.value = [LINES * round_number(scale / LINES); 3];
+    setting.value = DVec3::splat(LINES * round_number(scale / LINES));
 }
 
 /// The size below which a share of the sorted sizes lies; 1 where there are none.

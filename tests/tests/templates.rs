@@ -435,7 +435,11 @@ fn settings_of(scene: &Scene) -> Result<(), String> {
             .filter(|s| s.name == setting.name)
             .count();
         let (lo, hi) = setting.range;
-        let inside = setting.default.iter().all(|x| (lo..=hi).contains(x));
+        let inside = setting
+            .default
+            .as_ref()
+            .iter()
+            .all(|x| (lo..=hi).contains(x));
         if doubled > 1 || setting.doc.is_empty() || !inside {
             return Err(format!(
                 "`{}` is double, without words, or out of range",

@@ -83,7 +83,7 @@ impl SceneModule {
             let Some(setting) = settings.iter().find(|s| s.spec.name == member.name) else {
                 continue;
             };
-            for (k, &value) in setting.value.iter().take(member.count).enumerate() {
+            for (k, &value) in setting.value.as_ref().iter().take(member.count).enumerate() {
                 let at = member.offset + 4 * k;
                 if let Some(slot) = bytes.get_mut(at..at + 4) {
                     slot.copy_from_slice(&encode(value, member.kind));

@@ -10,6 +10,7 @@ use crate::check::{Symbols, check_names, is_builtin_function};
 use crate::formula::Formula;
 use crate::scene::{Scene, SettingSpec};
 use checker::Checker;
+use glam::DVec3;
 use pullback_grammar::diagnostic::limit;
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::FxHashSet;
@@ -33,7 +34,7 @@ pub struct SettingValue {
     /// What it is.
     pub spec: &'static SettingSpec,
     /// Its components; for a choice, the place of the word.
-    pub value: [f64; 3],
+    pub value: DVec3,
 }
 
 /// One picture: a scene, its settings, and the formula that it shows.
@@ -50,7 +51,7 @@ pub struct Picture {
 impl Picture {
     /// The value of a setting.
     #[must_use]
-    pub fn setting(&self, name: &str) -> Option<[f64; 3]> {
+    pub fn setting(&self, name: &str) -> Option<DVec3> {
         self.settings
             .iter()
             .find(|s| s.spec.name == name)

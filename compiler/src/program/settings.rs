@@ -6,6 +6,7 @@ use super::params::infinity_or_nan;
 use crate::check::{nearest, not_constant, quoted};
 use crate::scene::{Scene, SettingKind, SettingSpec};
 use crate::types::Type;
+use glam::DVec3;
 use pullback_grammar::ast::{Expr, ExprId, Show};
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
@@ -73,7 +74,7 @@ impl<'a> Checker<'a> {
             });
     }
 
-    pub(super) fn setting_value(&mut self, spec: &SettingSpec, expr: ExprId) -> Option<[f64; 3]> {
+    pub(super) fn setting_value(&mut self, spec: &SettingSpec, expr: ExprId) -> Option<DVec3> {
         let span = self.file.exprs.span(expr);
         if let SettingKind::Choice(words) = spec.kind {
             let found = match &self.file.exprs[expr] {
@@ -92,7 +93,7 @@ impl<'a> Checker<'a> {
                 return None;
             };
             #[allow(clippy::cast_precision_loss, reason = "a place in a short list")]
-            return Some([place as f64; 3]);
+            return Some(DVec3::splat(place as f64));
         }
         let (value, graph) = self.constant_value(expr)?;
         let (size, wanted, example) = match spec.kind {
@@ -136,12 +137,12 @@ impl<'a> Checker<'a> {
             return None;
         }
         let out = match *numbers.as_slice() {
-            [x] => [x; 3],
-            [x, y] => [x, y, 0.0],
-            [x, y, z] => [x, y, z],
+            [x] => DVec3::splat(x),
+            [x, y] => DVec3::new(x, y, 0.0),
+            [x, y, z] => DVec3::new(x, y, z),
             _ => return None,
         };
-        match spec.check(&out[..size]) {
+        match spec.check(&out.as_ref()[..size]) {
             Ok(()) => Some(out),
             Err(message) => {
                 self.diagnostics.push(

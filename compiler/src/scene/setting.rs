@@ -1,5 +1,7 @@
 //! Settings of scenes: what can be said in the braces of a `show`.
 
+use glam::DVec3;
+
 /// What values a setting takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SettingKind {
@@ -26,7 +28,7 @@ pub struct SettingSpec {
     /// What values it takes.
     pub kind: SettingKind,
     /// Value without a setting.
-    pub default: [f64; 3],
+    pub default: DVec3,
     /// Least and greatest value of each component.
     pub range: (f64, f64),
 }
@@ -44,7 +46,7 @@ impl SettingSpec {
             name,
             doc,
             kind: SettingKind::Real,
-            default: [default; 3],
+            default: DVec3::splat(default),
             range,
         }
     }
@@ -61,7 +63,7 @@ impl SettingSpec {
             name,
             doc,
             kind: SettingKind::Integer,
-            default: [default; 3],
+            default: DVec3::splat(default),
             range,
         }
     }
@@ -78,7 +80,7 @@ impl SettingSpec {
             name,
             doc,
             kind: SettingKind::Vec3,
-            default,
+            default: DVec3::from_array(default),
             range,
         }
     }
@@ -101,7 +103,7 @@ impl SettingSpec {
             name,
             doc,
             kind: SettingKind::Choice(words),
-            default: [default; 3],
+            default: DVec3::splat(default),
             range: (0.0, f64::INFINITY),
         }
     }
@@ -113,7 +115,7 @@ impl SettingSpec {
             name: "center",
             doc: "world coordinates of the centre of the picture",
             kind: SettingKind::Vec2,
-            default: [0.0; 3],
+            default: DVec3::ZERO,
             range: (f64::NEG_INFINITY, f64::INFINITY),
         }
     }

@@ -112,7 +112,7 @@ impl Case {
         for (slot, param) in params.iter_mut().zip(program.params()) {
             *slot = param.default as f32;
         }
-        let [x, y, _] = picture.setting("center").unwrap_or_default();
+        let [x, y, _] = picture.setting("center").unwrap_or_default().to_array();
         let plane = picture.scene.space != Space::Space;
         Ok(Prepared {
             scene: picture.scene.name,
@@ -124,7 +124,7 @@ impl Case {
             } else {
                 [0.0; 2]
             },
-            height: picture.setting("height").map_or(2.0, |h| h[0] as f32),
+            height: picture.setting("height").map_or(2.0, |h| h.x as f32),
         })
     }
 }

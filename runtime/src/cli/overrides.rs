@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use glam::DVec3;
 use pullback_compiler::scene::{SettingKind, SettingSpec};
 use pullback_compiler::{Picture, Program, SettingValue};
 
@@ -114,7 +115,7 @@ fn set_parameter(
 }
 
 /// The components of a setting's value, zero beyond them.
-fn components(spec: &SettingSpec, value: &Value) -> Result<[f64; 3], String> {
+fn components(spec: &SettingSpec, value: &Value) -> Result<DVec3, String> {
     let name = spec.name;
     let size = match spec.kind {
         SettingKind::Choice(words) => {
@@ -125,7 +126,7 @@ fn components(spec: &SettingSpec, value: &Value) -> Result<[f64; 3], String> {
             let place = place
                 .and_then(|place| u32::try_from(place).ok())
                 .ok_or_else(|| format!("`{name}` is one of {}", words.join(", ")))?;
-            return Ok([f64::from(place); 3]);
+            return Ok(DVec3::splat(f64::from(place)));
         }
         SettingKind::Real | SettingKind::Integer => 1,
         SettingKind::Vec2 => 2,
@@ -137,9 +138,9 @@ fn components(spec: &SettingSpec, value: &Value) -> Result<[f64; 3], String> {
     };
     let numbers = match numbers[..] {
         // One number stands for three equal ones, as in the language.
-        [all] if size != 2 => [all; 3],
-        [x, y] if size == 2 => [x, y, 0.0],
-        [x, y, z] if size == 3 => [x, y, z],
+        [all] if size != 2 => DVec3::splat(all),
+        [x, y] if size == 2 => DVec3::new(x, y, 0.0),
+        [x, y, z] if size == 3 => DVec3::new(x, y, z),
         _ => {
             return Err(format!(
                 "`{name}` takes {size} number{}, not {}",
@@ -148,10 +149,10 @@ fn components(spec: &SettingSpec, value: &Value) -> Result<[f64; 3], String> {
             ));
         }
     };
-    if !numbers.iter().all(|number| number.is_finite()) {
+    if !numbers.is_finite() {
         return Err(format!("`{name}` takes finite numbers"));
     }
-    spec.check(&numbers[..size])?;
+    spec.check(&numbers.as_ref()[..size])?;
     Ok(numbers)
 }
 
@@ -200,7 +201,7 @@ mod tests {
             let value = format!("s={text}").parse::<Assignment>().unwrap().value;
             let found = components(spec, &value);
             match (&found, expected) {
-                (Ok(found), Ok(expected)) => assert_eq!(*found, expected, "{text}"),
+                (Ok(found), Ok(expected)) => assert_eq!(found.to_array(), expected, "{text}"),
                 (Err(found), Err(expected)) => assert!(found.contains(expected), "{found}"),
                 _ => panic!("{text}: {found:?}"),
             }

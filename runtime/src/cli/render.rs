@@ -142,10 +142,10 @@ fn view(
             .find(|s| s.spec.name == name)
             .map(|s| s.value)
     };
-    let [x, y, _] = setting("center").unwrap_or_default();
-    let [height, ..] = setting("height").unwrap_or([2.0; 3]);
+    let center = setting("center").unwrap_or_default();
+    let height = setting("height").map_or(2.0, |value| value.x);
     Ok(View {
-        center: arguments.center.unwrap_or([x, y]),
+        center: arguments.center.unwrap_or([center.x, center.y]),
         height: arguments.height.unwrap_or(height),
     })
 }
@@ -194,7 +194,7 @@ fn metadata(
 
 /// A setting's value as one writes it.
 pub(super) fn written(setting: &SettingValue) -> String {
-    let [x, y, z] = setting.value;
+    let [x, y, z] = setting.value.to_array();
     match setting.spec.kind {
         SettingKind::Real | SettingKind::Integer => x.to_string(),
         SettingKind::Vec2 => format!("({x}, {y})"),
