@@ -203,6 +203,8 @@ impl Graph {
     pub fn compacted(&self, roots: &[Id]) -> (Self, Vec<Id>) {
         let live = self.reachable(roots);
         let mut out = Self::new();
+        out.nodes.reserve(self.nodes.len());
+        out.ids.reserve(self.nodes.len());
         let mut map: Vec<Option<Id>> = vec![None; self.nodes.len()];
         for (id, node) in self.ids().zip(&self.nodes) {
             if !live[id.index()] {

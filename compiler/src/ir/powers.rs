@@ -1,5 +1,7 @@
 //! Integer powers as products.
 
+use std::borrow::Cow;
+
 use super::{Graph, Id, Op, Prim, Ty};
 
 /// Exponents up to this size become products; larger ones stay calls.
@@ -10,8 +12,13 @@ const MAX_EXPANDED: u32 = 1 << 16;
 ///
 /// Knuth, The Art of Computer Programming 2, section 4.6.3 (left-to-right binary method).
 #[must_use]
-pub fn expand_powers(graph: &Graph, roots: &[Id]) -> (Graph, Vec<Id>) {
+pub fn expand_powers<'g>(graph: &'g Graph, roots: &[Id]) -> (Cow<'g, Graph>, Vec<Id>) {
     let live = graph.reachable(roots);
+    let is_power =
+        |id: &Id| live[id.index()] && matches!(graph.node(*id).op, Op::Apply(Prim::PowInt(_)));
+    if !graph.ids().any(|id| is_power(&id)) {
+        return (Cow::Borrowed(graph), roots.to_vec());
+    }
     let mut out = Graph::new();
     let mut map = vec![None; graph.nodes().len()];
     for (id, node) in graph.ids().zip(graph.nodes()) {
@@ -35,7 +42,7 @@ pub fn expand_powers(graph: &Graph, roots: &[Id]) -> (Graph, Vec<Id>) {
         map[id.index()] = Some(new);
     }
     let roots = roots.iter().filter_map(|r| map[r.index()]).collect();
-    (out, roots)
+    (Cow::Owned(out), roots)
 }
 
 fn power(g: &mut Graph, ty: Ty, base: Id, n: i32) -> Id {

@@ -89,9 +89,10 @@ pub fn lower(
     linker: &mut Linker,
 ) -> Result<Function, LowerError> {
     let (graph, roots) = expand_powers(graph, roots);
+    let graph = graph.as_ref();
     let types = NagaTypes::insert(&mut linker.out.types);
     let mut lowering = Lowering {
-        graph: &graph,
+        graph,
         types,
         body: Body::new(interface.declaration),
         inputs: &interface.inputs,
