@@ -1,0 +1,147 @@
+//! A whole program: its parameters and the pictures that it shows.
+
+mod checker;
+mod params;
+mod settings;
+mod subject;
+mod unused;
+
+use crate::check::{Symbols, check_names, is_builtin_function};
+use crate::formula::Formula;
+use crate::scene::{Scene, SettingSpec};
+use checker::Checker;
+use pullback_grammar::diagnostic::limit;
+use pullback_grammar::{Diagnostic, Span};
+use rustc_hash::FxHashSet;
+
+/// A parameter: a number that can change without compiling again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParamInfo {
+    /// Its name.
+    pub name: String,
+    /// Value at the start.
+    pub default: f64,
+    /// Lower end of the slider.
+    pub lo: f64,
+    /// Upper end of the slider.
+    pub hi: f64,
+}
+
+/// A setting of a picture with its value.
+#[derive(Clone, Debug)]
+pub struct SettingValue {
+    /// What it is.
+    pub spec: &'static SettingSpec,
+    /// Its components; for a choice, the place of the word.
+    pub value: [f64; 3],
+}
+
+/// One picture: a scene, its settings, and the formula that it shows.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// The scene.
+    pub scene: &'static Scene,
+    /// Every setting of the scene.
+    pub settings: Vec<SettingValue>,
+    /// What is shown.
+    pub formula: Formula,
+}
+
+impl Picture {
+    /// The value of a setting.
+    #[must_use]
+    pub fn setting(&self, name: &str) -> Option<[f64; 3]> {
+        self.settings
+            .iter()
+            .find(|s| s.spec.name == name)
+            .map(|s| s.value)
+    }
+}
+
+/// A program without errors.
+#[derive(Clone, Debug)]
+pub struct Program {
+    params: Vec<ParamInfo>,
+    pictures: Vec<Picture>,
+}
+
+impl Program {
+    /// The parameters in the order of the text.
+    #[must_use]
+    pub fn params(&self) -> &[ParamInfo] {
+        &self.params
+    }
+
+    /// One picture for each `show`, or the default one. Never empty.
+    #[must_use]
+    pub fn pictures(&self) -> &[Picture] {
+        &self.pictures
+    }
+}
+
+/// What compiling a text gives.
+#[derive(Clone, Debug)]
+pub struct Compilation {
+    /// The program, where there are no errors.
+    pub program: Option<Program>,
+    /// Everything that was found, in the order of the text.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Compiles a program: parses it, resolves names and types, and builds the IR of what it shows.
+///
+/// Never fails: problems are diagnostics, all of them from one pass.
+#[must_use]
+pub fn compile(source: &str) -> Compilation {
+    from_parsed(pullback_grammar::parse(source, &is_builtin_function))
+}
+
+/// [`compile`] for text that may not be UTF-8.
+#[must_use]
+pub fn compile_bytes(source: &[u8]) -> Compilation {
+    from_parsed(pullback_grammar::parse_bytes(source, &is_builtin_function))
+}
+
+fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
+    let mut diagnostics = parsed.diagnostics;
+    let file = &parsed.file;
+    let symbols = Symbols::collect(file, &mut diagnostics);
+    check_names(file, &symbols, &mut diagnostics);
+    let in_order = |d: &Diagnostic| d.span;
+    diagnostics.sort_by_key(in_order);
+    limit(&mut diagnostics);
+    let mut checker = Checker {
+        file,
+        symbols: &symbols,
+        diagnostics,
+        called: FxHashSet::default(),
+    };
+    let params = checker.params();
+    let pictures = checker.pictures();
+    checker.unused_functions();
+    let mut diagnostics = checker.diagnostics;
+    let failed = diagnostics.iter().any(Diagnostic::is_error);
+    if !failed && pictures.is_empty() {
+        diagnostics.push(
+            Diagnostic::error(
+                "internal-silent",
+                Span::default(),
+                "the program cannot be shown",
+            )
+            .with_hint("this is a mistake in pullback; please report the program"),
+        );
+    }
+    diagnostics.sort_by(|a, b| {
+        (a.span, a.severity, a.code, &a.message).cmp(&(b.span, b.severity, b.code, &b.message))
+    });
+    diagnostics.dedup_by(|a, b| a.span == b.span && a.code == b.code && a.message == b.message);
+    limit(&mut diagnostics);
+    let program = (!failed && !pictures.is_empty()).then_some(Program { params, pictures });
+    Compilation {
+        program,
+        diagnostics,
+    }
+}
+
+/// Greatest number of `show` statements of a program.
+pub const MAX_SHOWS: usize = 64;

@@ -1,0 +1,165 @@
+//! The settings of a `show`.
+
+use super::SettingValue;
+use super::checker::Checker;
+use super::params::infinity_or_nan;
+use crate::check::{nearest, not_constant, quoted};
+use crate::scene::{Scene, SettingKind, SettingSpec};
+use crate::types::Type;
+use pullback_grammar::ast::{Expr, ExprId, Show};
+use pullback_grammar::{Diagnostic, Span};
+use rustc_hash::FxHashMap;
+
+impl<'a> Checker<'a> {
+    pub(super) fn settings_of(
+        &mut self,
+        scene: &'static Scene,
+        show: &'a Show,
+    ) -> Vec<SettingValue> {
+        let mut settings = default_settings(scene);
+        let mut seen: FxHashMap<&str, Span> = FxHashMap::default();
+        for setting in &show.settings {
+            let name = setting.name.text.as_str();
+            if let Some(&first) = seen.get(name) {
+                self.diagnostics.push(
+                    Diagnostic::error(
+                        "duplicate-setting",
+                        setting.name.span,
+                        format!("{} is set twice", quoted(name)),
+                    )
+                    .with_related(first, "first set here")
+                    .with_hint("remove one of them"),
+                );
+                continue;
+            }
+            seen.insert(name, setting.name.span);
+            let Some(spec) = scene.setting(name) else {
+                self.unknown_setting(scene, &setting.name);
+                continue;
+            };
+            if let Some(upper) = setting.upper {
+                let span = self
+                    .file
+                    .exprs
+                    .span(setting.value)
+                    .join(self.file.exprs.span(upper));
+                self.diagnostics.push(
+                    Diagnostic::error("type-mismatch", span, format!("`{name}` is not a range"))
+                        .with_hint("write one value"),
+                );
+                continue;
+            }
+            let Some(value) = self.setting_value(spec, setting.value) else {
+                continue;
+            };
+            if let Some(slot) = settings.iter_mut().find(|s| s.spec.name == name) {
+                slot.value = value;
+            }
+        }
+        settings
+    }
+
+    pub(super) fn unknown_setting(&mut self, scene: &Scene, name: &pullback_grammar::ast::Name) {
+        let problem = Diagnostic::error(
+            "unknown-setting",
+            name.span,
+            format!("`{}` has no setting {}", scene.name, quoted(&name.text)),
+        );
+        let names: Vec<&str> = scene.settings.iter().map(|s| s.name).collect();
+        self.diagnostics
+            .push(match nearest(&name.text, names.iter().copied()) {
+                Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
+                None => problem.with_hint(format!("it has {}", names.join(", "))),
+            });
+    }
+
+    pub(super) fn setting_value(&mut self, spec: &SettingSpec, expr: ExprId) -> Option<[f64; 3]> {
+        let span = self.file.exprs.span(expr);
+        if let SettingKind::Choice(words) = spec.kind {
+            let found = match &self.file.exprs[expr] {
+                Expr::Name(name) => words.iter().position(|w| *w == name.text),
+                _ => None,
+            };
+            let Some(place) = found else {
+                self.diagnostics.push(
+                    Diagnostic::error(
+                        "type-mismatch",
+                        span,
+                        format!("`{}` is a choice of words", spec.name),
+                    )
+                    .with_hint(format!("write {}", words.join(", or "))),
+                );
+                return None;
+            };
+            #[allow(clippy::cast_precision_loss, reason = "a place in a short list")]
+            return Some([place as f64; 3]);
+        }
+        let (value, graph) = self.constant_value(expr)?;
+        let (size, wanted, example) = match spec.kind {
+            SettingKind::Vec2 => (2, "vec2", "(1, 2)"),
+            SettingKind::Vec3 => (3, "vec3", "(1, 2, 3)"),
+            _ => (1, "real", "1"),
+        };
+        let found = value.ty(&graph)?;
+        let fits = match found {
+            Type::Real => size != 2,
+            Type::Vector(n) => usize::from(n) == size,
+            _ => false,
+        };
+        if !fits {
+            self.diagnostics.push(
+                Diagnostic::error(
+                    "type-mismatch",
+                    span,
+                    format!("`{}` is {wanted}, found {found}", spec.name),
+                )
+                .with_label(format!("this is {found}"))
+                .with_hint(format!(
+                    "write a {wanted}, such as `{} = {example}`",
+                    spec.name
+                )),
+            );
+            return None;
+        }
+        let numbers: Option<Vec<f64>> = value.ids().iter().map(|&id| graph.as_real(id)).collect();
+        let Some(numbers) = numbers else {
+            if !self.has_error_in(span) {
+                self.diagnostics.push(not_constant(span, "a setting"));
+            }
+            return None;
+        };
+        if let Some(&x) = numbers.iter().find(|x| !x.is_finite()) {
+            let message = format!("`{}` is {}", spec.name, infinity_or_nan(x));
+            self.diagnostics.push(
+                Diagnostic::error("not-finite", span, message).with_hint("write a finite number"),
+            );
+            return None;
+        }
+        let out = match *numbers.as_slice() {
+            [x] => [x; 3],
+            [x, y] => [x, y, 0.0],
+            [x, y, z] => [x, y, z],
+            _ => return None,
+        };
+        match spec.check(&out[..size]) {
+            Ok(()) => Some(out),
+            Err(message) => {
+                self.diagnostics.push(
+                    Diagnostic::error("setting-out-of-range", span, message).with_hint(spec.doc),
+                );
+                None
+            }
+        }
+    }
+}
+
+pub(super) fn default_settings(scene: &'static Scene) -> Vec<SettingValue> {
+    scene
+        .settings
+        .iter()
+        .map(|spec| SettingValue {
+            spec,
+            value: spec.default,
+        })
+        .collect()
+}
