@@ -51,7 +51,7 @@ pub fn check_names<'a>(file: &'a File, symbols: &Symbols<'a>, diagnostics: &mut 
     check_cycles(symbols, &uses, diagnostics);
 }
 
-/// The inputs that a bare formula uses, in the order of [`FREE_NAMES`].
+/// The inputs that a bare formula uses, in the order x, y, z, p.
 pub fn free_variables(file: &File, symbols: &Symbols, formula: ExprId) -> Vec<&'static str> {
     let mut ignored = Vec::new();
     let mut walk = Walk::new(&file.exprs, symbols, &mut ignored);

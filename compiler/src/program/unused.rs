@@ -69,7 +69,7 @@ impl<'a> Checker<'a> {
                     .collect();
                 let mut builder = self.attempt(function, &types);
                 // a large function counts as many
-                *attempts = attempts.saturating_sub(builder.graph.nodes().len() / 1000);
+                *attempts = attempts.saturating_sub(builder.graph.nodes().len() / 200);
                 if builder.graph.budget().is_err() {
                     return;
                 }
