@@ -13,20 +13,25 @@ pub struct Gradient {
 }
 
 /// The gradient of a real root by real leaves. Forward and reverse mode are both derived, and the one whose
-/// counted cost, together with the value, is lower is kept.
+/// counted cost, together with the value, is lower is kept. Where forward mode finds an exact zero that reverse mode
+/// does not, forward mode is kept: the other would multiply that zero by a slope that may be infinite.
 ///
 /// # Errors
 /// An operation that depends on a leaf has no derivative rule.
 pub fn gradient(g: &mut Graph, value: Id, leaves: &[Id]) -> Result<Gradient, NoDerivative> {
     let one = g.real(1.0);
     let zero = g.real(0.0);
-    let mut partials = Vec::with_capacity(leaves.len());
+    let mut tangents = Vec::with_capacity(leaves.len());
     for &leaf in leaves {
-        let tangent = forward(g, &[value], &[(leaf, one)])?;
-        partials.push(tangent[0].unwrap_or(zero));
+        tangents.push(forward(g, &[value], &[(leaf, one)])?[0]);
     }
+    let mut partials: Vec<Id> = tangents.iter().map(|t| t.unwrap_or(zero)).collect();
     if leaves.len() > 1
         && let Some(adjoints) = reverse(g, value, leaves)?
+        && adjoints
+            .iter()
+            .zip(&tangents)
+            .all(|(a, t)| a.is_none() || t.is_some())
     {
         let adjoints: Vec<Id> = adjoints.into_iter().map(|a| a.unwrap_or(zero)).collect();
         let price = |partials: &[Id]| {
