@@ -13,6 +13,7 @@ pub mod ir;
 pub mod link;
 pub mod lower;
 pub mod module;
+mod numeral;
 pub mod program;
 pub mod reference;
 pub mod scene;

@@ -7,6 +7,7 @@ use smallvec::SmallVec;
 use super::builtins::length;
 use super::{Builder, Value};
 use crate::ir::{Id, Prim, Ty};
+use crate::numeral::Numeral;
 use crate::types::Type;
 
 impl<'a> Builder<'a> {
@@ -141,7 +142,7 @@ impl<'a> Builder<'a> {
         if value.is_nan() && args.iter().all(|x| !x.is_nan()) {
             let row = crate::table::row(prim);
             let name = row.sign();
-            let shown: Vec<String> = args.iter().map(f64::to_string).collect();
+            let shown: Vec<String> = args.iter().map(|&x| Numeral(x).to_string()).collect();
             let problem = Diagnostic::warning(
                 "outside-domain",
                 span,

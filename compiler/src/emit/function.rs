@@ -12,6 +12,7 @@ use crate::ir::Op;
 use crate::link::{Linker, math_module};
 use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
 use crate::module::{Evaluation, ModuleError, What, evaluation};
+use crate::numeral::Numeral;
 use crate::program::{Picture, Program};
 use crate::types::Type as LanguageType;
 
@@ -148,7 +149,10 @@ fn arguments(
         for param in program.params() {
             let described = format!(
                 "{}: real, {} in {}..{}",
-                param.name, param.default, param.lo, param.hi
+                param.name,
+                Numeral(param.default),
+                Numeral(param.lo),
+                Numeral(param.hi)
             );
             add(&param.name, types.real, described, &mut out.list);
         }

@@ -4,6 +4,7 @@ use super::ParamInfo;
 use super::checker::Checker;
 use crate::check::{MAX_PARAMS, Value, not_constant};
 use crate::ir::{Graph, Id};
+use crate::numeral::Numeral;
 use crate::types::Type;
 use pullback_grammar::Diagnostic;
 use pullback_grammar::ast::{ExprId, Item, Param};
@@ -27,33 +28,45 @@ impl<'a> Checker<'a> {
             .constant(param.default, "the default of a parameter")
             .unwrap_or(0.0);
         let reach = default.abs().max(1.0);
-        let (mut lo, mut hi) = (default - reach, default + reach);
+        let (mut lo, mut hi) = (
+            (default - reach).max(f64::MIN),
+            (default + reach).min(f64::MAX),
+        );
         if let Some((from, to)) = param.range {
             lo = self.constant(from, "an end of a range").unwrap_or(lo);
             hi = self.constant(to, "an end of a range").unwrap_or(hi);
             let span = self.file.exprs.span(from).join(self.file.exprs.span(to));
             if lo >= hi {
                 self.diagnostics.push(
-                    Diagnostic::error("bad-range", span, format!("the range {lo}..{hi} is empty"))
-                        .with_label("the first end must be the lesser one")
-                        .with_hint(if lo > hi {
-                            format!("write {hi}..{lo}")
-                        } else {
-                            "write two different ends".to_owned()
-                        }),
+                    Diagnostic::error(
+                        "bad-range",
+                        span,
+                        format!("the range {}..{} is empty", Numeral(lo), Numeral(hi)),
+                    )
+                    .with_label("the first end must be the lesser one")
+                    .with_hint(if lo > hi {
+                        format!("write {}..{}", Numeral(hi), Numeral(lo))
+                    } else {
+                        "write two different ends".to_owned()
+                    }),
                 );
             } else if !(lo..=hi).contains(&default) {
                 self.diagnostics.push(
                     Diagnostic::error(
                         "default-outside-range",
                         self.file.exprs.span(param.default),
-                        format!("the default {default} is not in {lo}..{hi}"),
+                        format!(
+                            "the default {} is not in {}..{}",
+                            Numeral(default),
+                            Numeral(lo),
+                            Numeral(hi)
+                        ),
                     )
                     .with_related(span, "the range")
                     .with_hint(format!(
                         "write {}..{} to include it",
-                        lo.min(default),
-                        hi.max(default)
+                        Numeral(lo.min(default)),
+                        Numeral(hi.max(default))
                     )),
                 );
             }

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::numeral::Numeral;
+
 /// What values a setting takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SettingKind {
@@ -141,14 +143,18 @@ impl SettingSpec {
             if !(lo..=hi).contains(&x) {
                 let wanted = match (lo.is_finite(), hi.is_finite()) {
                     (true, false) if lo > 0.0 && lo < 1e-20 => "must be greater than 0".to_owned(),
-                    (true, false) => format!("must be at least {lo}"),
-                    (false, true) => format!("must be at most {hi}"),
-                    _ => format!("must lie between {lo:?} and {hi:?}"),
+                    (true, false) => format!("must be at least {}", Numeral(lo)),
+                    (false, true) => format!("must be at most {}", Numeral(hi)),
+                    _ => format!("must lie between {} and {}", Numeral(lo), Numeral(hi)),
                 };
-                return Err(format!("`{}` {wanted}, not {x}", self.name));
+                return Err(format!("`{}` {wanted}, not {}", self.name, Numeral(x)));
             }
             if self.kind == SettingKind::Integer && x.fract() != 0.0 {
-                return Err(format!("`{}` must be a whole number, not {x}", self.name));
+                return Err(format!(
+                    "`{}` must be a whole number, not {}",
+                    self.name,
+                    Numeral(x)
+                ));
             }
         }
         Ok(())
