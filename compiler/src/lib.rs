@@ -4,6 +4,19 @@
 //! evaluator, and text in several shading languages. No input or output happens here, and nothing panics,
 //! whatever the text.
 
+// A library neither prints nor gives up; tests may.
+#![cfg_attr(
+    not(test),
+    warn(
+        clippy::expect_used,
+        clippy::panic,
+        clippy::print_stderr,
+        clippy::print_stdout,
+        clippy::unreachable,
+        clippy::unwrap_used
+    )
+)]
+
 pub mod check;
 pub mod derive;
 pub mod emit;

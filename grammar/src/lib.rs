@@ -3,6 +3,19 @@
 //! This crate knows nothing of types, shaders or files. [`parse`] never fails: it returns a tree and every
 //! diagnostic.
 
+// A library neither prints nor gives up; tests may.
+#![cfg_attr(
+    not(test),
+    warn(
+        clippy::expect_used,
+        clippy::panic,
+        clippy::print_stderr,
+        clippy::print_stdout,
+        clippy::unreachable,
+        clippy::unwrap_used
+    )
+)]
+
 pub mod ast;
 pub mod diagnostic;
 pub mod span;

@@ -3,6 +3,19 @@
 //! The compiler hands over validated shader modules; this crate runs them. Nothing here prints or exits, no
 //! function panics on any input or on a failing device, and every failure is an [`Error`].
 
+// A library neither prints nor gives up; tests may.
+#![cfg_attr(
+    not(test),
+    warn(
+        clippy::expect_used,
+        clippy::panic,
+        clippy::print_stderr,
+        clippy::print_stdout,
+        clippy::unreachable,
+        clippy::unwrap_used
+    )
+)]
+
 pub mod device;
 pub mod error;
 pub mod evaluate;

@@ -13,8 +13,6 @@ pub struct NagaTypes {
     pub vec3: Handle<Type>,
     /// `vec4<f32>`
     pub vec4: Handle<Type>,
-    /// `i32`
-    pub int: Handle<Type>,
     /// `bool`
     pub truth: Handle<Type>,
 }
@@ -32,7 +30,6 @@ impl NagaTypes {
             vec2: add(vector(VectorSize::Bi)),
             vec3: add(vector(VectorSize::Tri)),
             vec4: add(vector(VectorSize::Quad)),
-            int: add(TypeInner::Scalar(Scalar::I32)),
             truth: add(TypeInner::Scalar(Scalar::BOOL)),
         }
     }
