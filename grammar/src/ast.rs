@@ -264,13 +264,71 @@ pub enum Expr {
         /// Value where no condition holds.
         otherwise: Option<ExprId>,
     },
-    /// `body where a = …, b = …`: each local sees those before it.
+    /// `body where a = …, p.xy = …`: each local sees those before it.
     Where {
         /// The value.
         body: ExprId,
         /// Local names in order.
-        locals: Vec<(Name, ExprId)>,
+        locals: Vec<Local>,
     },
+    /// `sum(k in 1..n, term)`, `product(j in 1..m, k in 1..j, term)`
+    Series {
+        /// What is done with the terms.
+        kind: SeriesKind,
+        /// The running variables, outermost first; never empty. Each sees those before it.
+        ranges: Vec<Range>,
+        /// The term, which sees every running variable.
+        term: ExprId,
+    },
+    /// `iterate(n, z = z0, w = 1, (z^2 + c, 2 z w) until |z| > 2)`
+    Iterate {
+        /// Greatest number of steps.
+        count: ExprId,
+        /// Names of the states with their values at the start; never empty. A start does not see the states.
+        states: Vec<(Name, ExprId)>,
+        /// The next value of each state in order, each in the values before the step. As many as there are states.
+        steps: Vec<ExprId>,
+        /// Tested before each step; where it holds, the iteration ends.
+        until: Option<ExprId>,
+    },
+    /// `integral(body, t, a, b)`, `integral(t in a..b, body)`
+    Integral {
+        /// The integrand, which sees the variable.
+        body: ExprId,
+        /// The variable and the ends.
+        range: Range,
+    },
+}
+
+/// `name in lower..upper` of a series or an integral.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Range {
+    /// The running variable.
+    pub name: Name,
+    /// Its first value.
+    pub lower: ExprId,
+    /// Its last value.
+    pub upper: ExprId,
+}
+
+/// A local name of a `where`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Local {
+    /// The name.
+    pub name: Name,
+    /// The components that are replaced, as in `p.xy = …`; the others stay those of the `p` seen so far.
+    pub field: Option<Name>,
+    /// The value.
+    pub value: ExprId,
+}
+
+/// What a series does with its terms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SeriesKind {
+    /// `sum(…)`; 0 without terms
+    Sum,
+    /// `product(…)`; 1 without terms
+    Product,
 }
 
 impl Expr {
@@ -307,7 +365,30 @@ impl Expr {
             }
             Self::Where { body, locals } => {
                 visit(*body);
-                locals.iter().for_each(|local| visit(local.1));
+                locals.iter().for_each(|local| visit(local.value));
+            }
+            Self::Series { ranges, term, .. } => {
+                for range in ranges {
+                    visit(range.lower);
+                    visit(range.upper);
+                }
+                visit(*term);
+            }
+            Self::Iterate {
+                count,
+                states,
+                steps,
+                until,
+            } => {
+                visit(*count);
+                states.iter().for_each(|state| visit(state.1));
+                steps.iter().copied().for_each(&mut visit);
+                until.iter().copied().for_each(visit);
+            }
+            Self::Integral { body, range } => {
+                visit(*body);
+                visit(range.lower);
+                visit(range.upper);
             }
         }
     }

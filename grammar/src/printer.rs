@@ -3,7 +3,8 @@
 //! The text reads back as the same tree, spans aside, and has no brackets that it does not need.
 
 use crate::ast::{
-    BinaryOp, CompareOp, Expr, ExprId, Exprs, File, Function, Item, Param, Show, UnaryOp,
+    BinaryOp, CompareOp, Expr, ExprId, Exprs, File, Function, Item, Param, Range, SeriesKind, Show,
+    UnaryOp,
 };
 
 /// How tightly an expression holds together, loosest first.
@@ -244,6 +245,9 @@ fn level_of(expr: &Expr) -> Level {
         | Expr::Name(_)
         | Expr::Call { .. }
         | Expr::Vector(_)
+        | Expr::Series { .. }
+        | Expr::Iterate { .. }
+        | Expr::Integral { .. }
         | Expr::Piecewise { .. } => Level::Atom,
     }
 }
@@ -344,20 +348,65 @@ fn parts<'a>(stack: &mut Vec<Work<'a>>, exprs: &'a Exprs, id: ExprId, in_bars: b
         }
         Expr::Where { body, locals } => {
             stack.push(at(*body, Level::Where));
-            for (index, (name, value)) in locals.iter().enumerate() {
+            for (index, local) in locals.iter().enumerate() {
                 let word = if index == 0 { " where " } else { ", " };
-                stack.extend([
-                    Text(word),
-                    Text(&name.text),
-                    Text(" = "),
-                    at(*value, Level::If),
-                ]);
+                stack.extend([Text(word), Text(&local.name.text)]);
+                if let Some(field) = &local.field {
+                    stack.extend([Text("."), Text(&field.text)]);
+                }
+                stack.extend([Text(" = "), at(local.value, Level::If)]);
             }
+        }
+        Expr::Series { kind, ranges, term } => {
+            stack.push(Text(match kind {
+                SeriesKind::Sum => "sum(",
+                SeriesKind::Product => "product(",
+            }));
+            for found in ranges {
+                range(stack, found);
+                stack.push(Text(", "));
+            }
+            stack.extend([Work::Expr(*term, Level::If, false), Text(")")]);
+        }
+        Expr::Iterate {
+            count,
+            states,
+            steps,
+            until,
+        } => {
+            let inside = |id| Work::Expr(id, Level::If, false);
+            stack.extend([Text("iterate("), inside(*count)]);
+            for (name, start) in states {
+                stack.extend([Text(", "), Text(&name.text), Text(" = "), inside(*start)]);
+            }
+            for &step in steps {
+                stack.extend([Text(", "), inside(step)]);
+            }
+            if let Some(until) = until {
+                stack.extend([Text(" until "), inside(*until)]);
+            }
+            stack.push(Text(")"));
+        }
+        Expr::Integral { body, range: found } => {
+            stack.push(Text("integral("));
+            range(stack, found);
+            stack.extend([Text(", "), Work::Expr(*body, Level::If, false), Text(")")]);
         }
     }
     if let Some(added) = stack.get_mut(base..) {
         added.reverse();
     }
+}
+
+/// `name in lower..upper`
+fn range<'a>(stack: &mut Vec<Work<'a>>, range: &'a Range) {
+    stack.extend([
+        Work::Text(&range.name.text),
+        Work::Text(" in "),
+        Work::Expr(range.lower, Level::If, false),
+        Work::Text(".."),
+        Work::Expr(range.upper, Level::If, false),
+    ]);
 }
 
 /// `(a, b)`

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use pullback_grammar::ast::{
     BinaryOp, CompareOp, Constant, Expr, ExprId, Exprs, File, Formal, Formula, Function, Item,
-    Name, Param, Setting, Show, UnaryOp,
+    Local, Name, Param, Setting, Show, UnaryOp,
 };
 use pullback_grammar::{Span, print, print_expr};
 use support::{read, show_file};
@@ -92,7 +92,11 @@ fn build(exprs: &mut Exprs, plan: &Plan) -> ExprId {
             let body = build(exprs, body);
             let locals = locals
                 .iter()
-                .map(|(text, plan)| (name(text), build(exprs, plan)))
+                .map(|(text, plan)| Local {
+                    name: name(text),
+                    field: None,
+                    value: build(exprs, plan),
+                })
                 .collect();
             Expr::Where { body, locals }
         }

@@ -1,6 +1,6 @@
 //! Building the IR of an expression, with types.
 
-use pullback_grammar::ast::{Expr, ExprId, File, Function, Name};
+use pullback_grammar::ast::{Expr, ExprId, File, Function, Local, Name};
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
@@ -133,6 +133,7 @@ impl<'a> Builder<'a> {
                 self.choice(arms.iter().copied(), *otherwise, span)
             }
             Expr::Where { body, locals } => self.locals(*body, locals),
+            Expr::Series { .. } | Expr::Iterate { .. } | Expr::Integral { .. } => Value::Error,
         }
     }
 
@@ -156,12 +157,12 @@ impl<'a> Builder<'a> {
         value
     }
 
-    fn locals(&mut self, body: ExprId, locals: &'a [(Name, ExprId)]) -> Value {
+    fn locals(&mut self, body: ExprId, locals: &'a [Local]) -> Value {
         let depth = self.scope.len();
-        for (name, value) in locals {
-            let value = self.expr(*value);
-            self.name_value(&name.text, &value);
-            self.scope.push(&name.text, value);
+        for local in locals {
+            let value = self.expr(local.value);
+            self.name_value(&local.name.text, &value);
+            self.scope.push(&local.name.text, value);
         }
         let value = self.expr(body);
         self.scope.truncate(depth);

@@ -1,6 +1,6 @@
 //! Names: every name that is used must mean something, and no definition may need itself.
 
-use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Name, Setting};
+use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Local, Name, Setting};
 use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -213,6 +213,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 otherwise.iter().for_each(|e| self.expr(*e));
             }
             Expr::Where { body, locals } => self.locals(*body, locals),
+            Expr::Series { .. } | Expr::Iterate { .. } | Expr::Integral { .. } => {}
         }
     }
 
@@ -234,13 +235,13 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.scope.truncate(depth);
     }
 
-    fn locals(&mut self, body: ExprId, locals: &'a [(Name, ExprId)]) {
+    fn locals(&mut self, body: ExprId, locals: &'a [Local]) {
         let depth = self.scope.len();
         let pending = self.pending.len();
         self.pending
-            .extend(locals.iter().rev().map(|(name, _)| name));
+            .extend(locals.iter().rev().map(|local| &local.name));
         let mut seen: FxHashMap<&str, Span> = FxHashMap::default();
-        for (name, value) in locals {
+        for Local { name, value, .. } in locals {
             if let Some(problem) = reserved(name) {
                 self.diagnostics.push(problem);
             }

@@ -1,6 +1,6 @@
 //! Expressions with local names, and the conditional forms.
 
-use crate::ast::{Expr, ExprId, Name};
+use crate::ast::{Expr, ExprId, Local};
 use crate::cursor::{Node, Parser};
 use crate::token::TokenKind;
 
@@ -27,10 +27,14 @@ impl Parser<'_> {
     }
 
     /// `local = NAME "=" disjunction`
-    fn local(&mut self) -> Option<(Name, ExprId)> {
+    fn local(&mut self) -> Option<Local> {
         let name = self.expect_local()?;
-        let value = self.disjunction();
-        Some((name, value.id))
+        let value = self.disjunction().id;
+        Some(Local {
+            name,
+            field: None,
+            value,
+        })
     }
 
     /// `conditional = "if" disjunction "then" disjunction "else" disjunction`

@@ -4,7 +4,7 @@
 
 pub mod fixture;
 
-use pullback_grammar::ast::{Expr, ExprId, File, Item};
+use pullback_grammar::ast::{Expr, ExprId, File, Item, Range};
 use pullback_grammar::{Parsed, Span, parse};
 
 /// Builtin functions, as far as these tests need them.
@@ -105,6 +105,7 @@ pub fn show(file: &File, id: ExprId) -> String {
             .map(|&id| format!(" {}", show(id)))
             .collect::<String>()
     };
+    let range = |r: &Range| format!("[{} {} {}]", r.name.text, show(r.lower), show(r.upper));
     match &file.exprs[id] {
         Expr::Error => "?".to_owned(),
         Expr::Number(value) => format!("{value:?}").trim_end_matches(".0").to_owned(),
@@ -147,10 +148,33 @@ pub fn show(file: &File, id: ExprId) -> String {
         Expr::Where { body, locals } => {
             let locals: String = locals
                 .iter()
-                .map(|(n, v)| format!(" [{} {}]", n.text, show(*v)))
+                .map(|local| {
+                    let field = local.field.as_ref();
+                    let field = field.map_or(String::new(), |f| format!(".{}", f.text));
+                    format!(" [{}{field} {}]", local.name.text, show(local.value))
+                })
                 .collect();
             format!("(Where {}{locals})", show(*body))
         }
+        Expr::Series { kind, ranges, term } => {
+            let ranges: String = ranges.iter().map(|r| format!(" {}", range(r))).collect();
+            format!("({kind:?}{ranges} {})", show(*term))
+        }
+        Expr::Iterate {
+            count,
+            states,
+            steps,
+            until,
+        } => {
+            let states: String = states
+                .iter()
+                .map(|(n, v)| format!(" [{} {}]", n.text, show(*v)))
+                .collect();
+            let steps: String = steps.iter().map(|s| format!(" {}", show(*s))).collect();
+            let until = until.map_or(String::new(), |c| format!(" [until {}]", show(c)));
+            format!("(Iterate {}{states}{steps}{until})", show(*count))
+        }
+        Expr::Integral { body, range: r } => format!("(Integral {} {})", range(r), show(*body)),
     }
 }
 
