@@ -22,6 +22,7 @@ impl Value {
     pub fn ty(&self, graph: &Graph) -> Option<Type> {
         match self {
             Self::Scalar(id) => Some(match graph.ty(*id) {
+                Ty::Loop => return None,
                 Ty::Real => Type::Real,
                 Ty::Complex => Type::Complex,
                 Ty::Bool => Type::Bool,
