@@ -2,7 +2,7 @@
 
 use crate::Diagnostic;
 use crate::Span;
-use crate::ast::Name;
+use crate::ast::{ExprId, Name};
 use crate::cursor::Parser;
 use crate::stray::shorten;
 use crate::token::TokenKind;
@@ -63,6 +63,36 @@ impl Parser<'_> {
         );
     }
 
+    /// `sum'(…)`
+    #[cold]
+    pub(crate) fn complain_prime_of_form(&mut self, callee: &Name) {
+        let name = shorten(&callee.text);
+        let message = format!("a prime stands behind `{name}`");
+        self.complain(
+            Diagnostic::error("stray-prime", callee.span.join(self.last_span()), message)
+                .with_label("only a function of one variable has such a derivative")
+                .with_hint(format!("write `diff({name}(…), x)`")),
+        );
+    }
+
+    /// `grad(f)()`: the brackets of the point are there, the point is not.
+    pub(crate) fn check_point(&mut self, callee: &Name, args: &[ExprId]) {
+        let [function] = args else { return };
+        let function = self.short(self.exprs.span(*function));
+        let name = &callee.text;
+        self.complain(
+            Diagnostic::error(
+                "empty-brackets",
+                self.last_span(),
+                "nothing stands between the brackets",
+            )
+            .with_label("expected a point")
+            .with_hint(format!(
+                "write `{name}({function})(x, y)`, or `{name}({function})` at the parameters here"
+            )),
+        );
+    }
+
     #[cold]
     pub(crate) fn complain_no_function(&mut self, name: &Name) {
         let message = format!(
@@ -73,20 +103,6 @@ impl Parser<'_> {
             Diagnostic::error("stray-prime", name.span.join(self.last_span()), message)
                 .with_label("only a function has a derivative")
                 .with_hint("write `f'(x)`, or `diff(expr, x)`"),
-        );
-    }
-
-    #[cold]
-    pub(crate) fn complain_not_yet(&mut self) {
-        let place = self.span();
-        self.complain(
-            Diagnostic::error(
-                "not-yet",
-                place,
-                "sums, products and iterations are not available yet",
-            )
-            .with_label("an index or state of a loop")
-            .with_hint("write the terms out"),
         );
     }
 }

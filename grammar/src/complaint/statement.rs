@@ -188,15 +188,6 @@ impl Parser<'_> {
         }
         may
     }
-
-    /// Comes back from arguments, in which these names held.
-    pub(crate) fn leave_arguments(&mut self, bound: &[Span]) {
-        let text = self.text;
-        for name in bound {
-            self.scope.unbind(name.text(text));
-        }
-        self.ascend();
-    }
 }
 
 /// Words with which definitions begin in other languages.
