@@ -16,6 +16,8 @@ pub(crate) enum Piece {
     Running(Range),
     /// `k = a`, `k = a..b`
     Start(Name, Span, Option<Span>),
+    /// `{ k, a, b }`, which is no item of any form.
+    List(Vec<ExprId>),
 }
 
 impl Parser<'_> {
@@ -70,8 +72,9 @@ impl Parser<'_> {
         }
         let term = self.expr();
         if self.separator(opened) {
-            self.complain_second_term(callee, term);
-            self.skip_pieces(opened);
+            let place = self.span();
+            let pieces = self.pieces(opened);
+            self.complain_second_term(callee, term, place, &pieces);
         }
         term.id
     }
@@ -79,13 +82,12 @@ impl Parser<'_> {
     /// The number of steps of an iteration, and whether more follows in its brackets.
     pub(crate) fn step_count(&mut self, opened: &Opened) -> (ExprId, bool) {
         if self.at(TokenKind::RParen) || self.state_follows() {
-            self.complain_missing_count();
-            let count = self.missing_node().id;
             let more = self.state_follows();
             if !more {
                 self.close(opened);
             }
-            return (count, more);
+            self.complain_missing_count();
+            return (self.missing_node().id, more);
         }
         let count = self.expr().id;
         (count, self.separator(opened))
@@ -116,7 +118,9 @@ impl Parser<'_> {
         if let Some(name) = variable {
             self.scope.bind(name);
         }
+        self.takes_functions = true;
         pieces.push(self.piece());
+        self.takes_functions = false;
         let mut more = self.separator(opened);
         if more {
             pieces.push(self.piece());
@@ -149,11 +153,31 @@ impl Parser<'_> {
             self.bind_name(&name);
             return Piece::Start(name, value, upper);
         }
+        if self.list_follows() {
+            return Piece::List(self.list());
+        }
         let value = self.expr();
         if self.eat(TokenKind::DotDot) {
             return Piece::Interval(value.span, self.disjunction().span);
         }
         Piece::Value(value)
+    }
+
+    /// Whether `{ name,` is here, as other languages write the range of a sum.
+    fn list_follows(&self) -> bool {
+        self.at(TokenKind::LBrace)
+            && self.ahead(1) == TokenKind::Name
+            && self.ahead(2) == TokenKind::Comma
+    }
+
+    /// `{ k, 1, 10 }`
+    fn list(&mut self) -> Vec<ExprId> {
+        let opened = self.open();
+        let mut items = vec![self.expr().id];
+        while self.separator(&opened) {
+            items.push(self.expr().id);
+        }
+        items
     }
 
     /// Leaves out the items here and the end of their brackets.
@@ -172,9 +196,18 @@ impl Parser<'_> {
         else {
             return None;
         };
+        if self.is_bare_function(*body) {
+            return None;
+        }
         let name = self.bare_name(*variable)?;
         let (lower, upper) = (lower.id, upper.id);
         Some((body.id, Range { name, lower, upper }))
+    }
+
+    /// Whether an expression is the name of a function.
+    pub(crate) fn is_bare_function(&self, node: Node) -> bool {
+        let name = self.bare_name(node);
+        name.is_some_and(|name| self.scope.role(&name.text) == Role::Function)
     }
 
     /// The name that an expression is, without brackets.

@@ -45,6 +45,24 @@ impl Form {
             _ => return None,
         })
     }
+
+    /// The form that another name is often written for, where a range is among the arguments.
+    pub(crate) fn meant_by(name: &str) -> Option<Self> {
+        Some(match name {
+            "Σ" | "Sum" => Self::Series(SeriesKind::Sum),
+            "Π" | "Product" | "prod" => Self::Series(SeriesKind::Product),
+            _ => return None,
+        })
+    }
+
+    /// What stands in its brackets.
+    pub(crate) fn example(self) -> &'static str {
+        match self {
+            Self::Series(_) => "k in 1..n, term",
+            Self::Iterate => "n, z = start, step until condition",
+            Self::Integral => "expr, t, a, b",
+        }
+    }
 }
 
 /// Variables that a bare formula may use without defining them.

@@ -183,7 +183,7 @@ impl Parser<'_> {
             TokenKind::Until => (
                 "unexpected-token",
                 "`until` outside of `iterate`".to_owned(),
-                Some("write `iterate(n, z = start, step until condition)`"),
+                Some("write it in the brackets: `iterate(n, z = start, step until condition)`"),
             ),
             TokenKind::DotDot => (
                 "unexpected-token",

@@ -2,8 +2,9 @@
 
 use crate::Diagnostic;
 use crate::Span;
-use crate::ast::{ExprId, Name};
+use crate::ast::{ExprId, Name, SeriesKind};
 use crate::cursor::Parser;
+use crate::scope::{Form, Role};
 use crate::stray::shorten;
 use crate::token::TokenKind;
 
@@ -46,7 +47,10 @@ impl Parser<'_> {
             }
             _ => "x".to_owned(),
         };
-        let hint = if self.at(TokenKind::Caret) {
+        let form = self.scope.form(&callee.text);
+        let hint = if let Some(form) = form {
+            format!("write `{name}({})`", form.example())
+        } else if self.at(TokenKind::Caret) {
             let exponent = self.short(self.span_ahead(1));
             format!("write `{name}({argument})^{exponent}` for a power of the value")
         } else {
@@ -61,6 +65,28 @@ impl Parser<'_> {
             .with_label("a function is not a value")
             .with_hint(hint),
         );
+    }
+
+    /// The form that a call is; complains where its name is another one.
+    pub(crate) fn form_of(&mut self, callee: &Name) -> Option<Form> {
+        let form = self.scope.form(&callee.text);
+        let has_range = self.ahead(1) == TokenKind::Name && self.ahead(2) == TokenKind::In;
+        if form.is_some() || !has_range || self.scope.role(&callee.text) != Role::Unknown {
+            return form;
+        }
+        let meant = Form::meant_by(&callee.text)?;
+        let name = if meant == Form::Series(SeriesKind::Sum) {
+            "sum"
+        } else {
+            "product"
+        };
+        let message = format!("`{}` is no name of a {name}", callee.text);
+        self.diagnostics.push(
+            Diagnostic::error("foreign-name", callee.span, message)
+                .with_label("a name like any other")
+                .with_hint(format!("write `{name}({})`", meant.example())),
+        );
+        Some(meant)
     }
 
     /// `sum'(…)`

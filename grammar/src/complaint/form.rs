@@ -1,6 +1,6 @@
 //! Sums, products, iterations and integrals that are written in another way than ours.
 
-use crate::ast::{Expr, ExprId, Name, Range};
+use crate::ast::{BinaryOp, Expr, ExprId, Name, Range};
 use crate::cursor::{Node, Opened, Parser};
 use crate::piece::Piece;
 use crate::scope::Form;
@@ -13,7 +13,9 @@ impl Parser<'_> {
     pub(crate) fn foreign_form(&mut self, form: Form, callee: &Name, pieces: &[Piece]) -> Node {
         let span = callee.span.join(self.last_span());
         let name = shorten(&callee.text);
-        let guess = self.guess(pieces);
+        let takes_function =
+            matches!(pieces, [Piece::Value(body), ..] if self.is_bare_function(*body));
+        let guess = self.guess(pieces).filter(|_| !takes_function);
         let diagnostic = if form == Form::Integral {
             let example = guess.unwrap_or_else(|| self.guess_integral(pieces));
             Diagnostic::error(
@@ -45,9 +47,19 @@ impl Parser<'_> {
             ([Piece::Value(term), rest @ ..], Some((range, used)), _) if used == rest.len() => {
                 (range, Some(*term))
             }
-            (_, _, Some((range, used))) => match pieces.get(used..) {
-                Some([Piece::Value(term)]) => (range, Some(*term)),
-                Some([]) => (range, None),
+            ([Piece::Start(name, lower, None), Piece::Value(term)], ..) => {
+                let range = format!("{} in {}..n", shorten(&name.text), self.short(*lower));
+                (range, Some(*term))
+            }
+            (_, _, Some((range, used))) => match (pieces.get(used..), pieces) {
+                (Some([Piece::Value(term)]), _) => (range, Some(*term)),
+                // `sum(x, y, z)` rather adds three values.
+                (Some([]), [_, Piece::Value(lower), _])
+                    if !matches!(self.exprs[lower.id], Expr::Number(_)) =>
+                {
+                    return None;
+                }
+                (Some([]), _) => (range, None),
                 _ => return None,
             },
             _ => return None,
@@ -59,11 +71,11 @@ impl Parser<'_> {
     /// The range that the first items name in some other way, and how many they are.
     fn range_of(&self, pieces: &[Piece]) -> Option<(String, usize)> {
         let text = |node: &Node| self.short(node.span);
-        let is_name = |node: &Node| self.bare_name(*node).is_some();
+        let is_name =
+            |node: &Node| self.bare_name(*node).is_some() && !self.is_bare_function(*node);
         let (name, lower, upper, used) = match pieces {
             [Piece::Running(range), ..] => {
-                let ends = [range.lower, range.upper].map(|id| self.short(self.exprs.span(id)));
-                let [lower, upper] = ends;
+                let [lower, upper] = [range.lower, range.upper].map(|id| self.short_expr(id));
                 (shorten(&range.name.text), lower, upper, 1)
             }
             [Piece::Start(name, lower, Some(upper)), ..] => {
@@ -83,37 +95,51 @@ impl Parser<'_> {
                 Piece::Value(upper),
                 ..,
             ] if is_name(name) => (text(name), text(lower), text(upper), 3),
-            [Piece::Value(list), ..] => {
-                let Expr::Vector(items) = &self.exprs[list.id] else {
-                    return None;
-                };
-                let [name, lower, upper] = items[..] else {
-                    return None;
-                };
-                let Expr::Name(name) = &self.exprs[name] else {
-                    return None;
-                };
-                let ends = [lower, upper].map(|id| self.short(self.exprs.span(id)));
-                let [lower, upper] = ends;
-                (shorten(&name.text), lower, upper, 1)
-            }
+            [Piece::List(items), ..] => self.range_of_list(items)?,
+            [Piece::Value(list), ..] => match &self.exprs[list.id] {
+                Expr::Vector(items) => self.range_of_list(items)?,
+                _ => return None,
+            },
             _ => return None,
         };
         Some((format!("{name} in {lower}..{upper}"), used))
     }
 
+    /// The range that `(k, a, b)` stands for, as one item.
+    fn range_of_list(&self, items: &[ExprId]) -> Option<(String, String, String, usize)> {
+        let [name, lower, upper] = *items else {
+            return None;
+        };
+        let is_name = matches!(self.exprs[name], Expr::Name(_));
+        let [name, lower, upper] = [name, lower, upper].map(|id| self.short_expr(id));
+        is_name.then_some((name, lower, upper, 1))
+    }
+
+    /// The text of an expression, shortened.
+    fn short_expr(&self, id: ExprId) -> String {
+        self.short(self.exprs.span(id))
+    }
+
     /// What may be meant by an integral without its variable or its ends.
     fn guess_integral(&self, pieces: &[Piece]) -> String {
         let text = |node: &Node| self.short(node.span);
-        match pieces {
-            [Piece::Value(body), Piece::Value(name)] if self.bare_name(*name).is_some() => {
-                format!("{}, {}, a, b", text(body), text(name))
+        let values = values(pieces);
+        let Some([body, rest @ ..]) = values.as_deref() else {
+            return Form::Integral.example().to_owned();
+        };
+        let is_function = self.is_bare_function(*body);
+        let body = format!("{}{}", text(body), if is_function { "(t)" } else { "" });
+        match rest {
+            [] => format!("{body}, t, a, b"),
+            [name] if self.bare_name(*name).is_some() => format!("{body}, {}, a, b", text(name)),
+            [name, upper] if self.bare_name(*name).is_some() && !is_function => {
+                format!("{body}, {}, a, {}", text(name), text(upper))
             }
-            [Piece::Value(body), Piece::Value(lower), Piece::Value(upper)] => {
-                format!("{}, t, {}, {}", text(body), text(lower), text(upper))
+            [lower, upper] => format!("{body}, t, {}, {}", text(lower), text(upper)),
+            [_, lower, upper] if is_function => {
+                format!("{body}, t, {}, {}", text(lower), text(upper))
             }
-            [Piece::Value(body)] => format!("{}, t, a, b", text(body)),
-            _ => "expr, t, a, b".to_owned(),
+            _ => Form::Integral.example().to_owned(),
         }
     }
 
@@ -125,17 +151,13 @@ impl Parser<'_> {
         } else {
             " + "
         };
-        let values: Vec<String> = pieces
-            .iter()
-            .map_while(|piece| match piece {
-                Piece::Value(node) => Some(self.short(node.span)),
-                _ => None,
-            })
-            .collect();
-        if values.len() < 2 || values.len() != pieces.len() || values.len() > 4 {
-            return format!("write {example}");
+        match values(pieces) {
+            Some(values) if (2..=4).contains(&values.len()) => {
+                let values: Vec<String> = values.iter().map(|node| self.short(node.span)).collect();
+                format!("write `{}`, or {example} over a range", values.join(sign))
+            }
+            _ => format!("write {example}"),
         }
-        format!("write `{}`, or {example} over a range", values.join(sign))
     }
 
     #[cold]
@@ -145,27 +167,51 @@ impl Parser<'_> {
             return;
         };
         let span = first.name.span.join(self.exprs.span(last.upper));
-        let message = format!("`{name}` without a term");
-        let (shown, variable) = (self.short(span), shorten(&last.name.text));
+        let what = if self.scope.form(&callee.text) == Some(Form::Integral) {
+            "an expression"
+        } else {
+            "a term"
+        };
+        let message = format!("`{name}` without {what}");
+        let (shown, term) = match self.exprs[last.upper] {
+            // `sum(k in 1..3 k)`: the comma is missing.
+            Expr::Binary {
+                op: BinaryOp::ImplicitMul,
+                lhs,
+                rhs,
+            } => (
+                self.short(first.name.span.join(self.exprs.span(lhs))),
+                self.short_expr(rhs),
+            ),
+            _ => (self.short(span), format!("{}^2", shorten(&last.name.text))),
+        };
         self.complain(
             Diagnostic::error("missing-term", span, message)
-                .with_label("expected `, term` behind the range")
-                .with_hint(format!("write `{name}({shown}, {variable}^2)`")),
+                .with_label(format!("expected `,` and {what} behind the range"))
+                .with_hint(format!("write `{name}({shown}, {term})`")),
         );
     }
 
     #[cold]
-    pub(crate) fn complain_second_term(&mut self, callee: &Name, term: Node) {
+    pub(crate) fn complain_second_term(
+        &mut self,
+        callee: &Name,
+        term: Node,
+        place: Span,
+        more: &[Piece],
+    ) {
         let name = shorten(&callee.text);
-        let hint = if self.running_follows() {
-            "write the ranges first, the outermost in front".to_owned()
-        } else {
-            let (first, second) = (self.short(term.span), self.short(self.span()));
-            format!("write `({first}, {second} …)` for a vector")
+        let hint = match more {
+            [Piece::Value(second)] => {
+                let (first, second) = (self.short(term.span), self.short(second.span));
+                format!("write `({first}, {second})` for a vector")
+            }
+            [Piece::Running(_), ..] => "write the ranges first, the outermost in front".to_owned(),
+            _ => "put brackets around the components of a vector".to_owned(),
         };
-        let message = format!("{} behind the term of `{name}`", self.describe());
+        let message = format!("{} behind the term of `{name}`", self.quote(place));
         self.complain(
-            Diagnostic::error("second-term", self.span(), message)
+            Diagnostic::error("second-term", place, message)
                 .with_label("the term is the last item")
                 .with_hint(hint),
         );
@@ -173,15 +219,15 @@ impl Parser<'_> {
 
     #[cold]
     pub(crate) fn complain_missing_count(&mut self) {
-        let state = if self.state_follows() {
-            self.short(self.span())
+        let (place, state) = if self.state_follows() {
+            (self.span(), self.short(self.span()))
         } else {
-            "z".to_owned()
+            (self.last_span(), "z".to_owned())
         };
         self.complain(
             Diagnostic::error(
                 "missing-count",
-                self.span(),
+                place,
                 "an iteration without its greatest number of steps",
             )
             .with_label("expected a number first")
@@ -219,11 +265,12 @@ impl Parser<'_> {
     pub(crate) fn steps_fit(
         &mut self,
         callee: &Name,
+        count: ExprId,
         states: &[(Name, ExprId)],
         steps: &[ExprId],
     ) -> bool {
         if states.is_empty() {
-            self.complain_missing_state(callee);
+            self.complain_missing_state(callee, count);
         } else if steps.is_empty() {
             self.complain_missing_step(callee, states);
         } else if states.len() != steps.len() {
@@ -235,12 +282,16 @@ impl Parser<'_> {
     }
 
     #[cold]
-    fn complain_missing_state(&mut self, callee: &Name) {
+    fn complain_missing_state(&mut self, callee: &Name, count: ExprId) {
         let message = "an iteration without a state";
+        let count = match self.exprs[count] {
+            Expr::Number(_) => self.short_expr(count),
+            _ => "n".to_owned(),
+        };
         self.complain(
             Diagnostic::error("missing-state", callee.span, message)
                 .with_label("expected `name = start` behind the number of steps")
-                .with_hint("write `iterate(n, z = start, step)`"),
+                .with_hint(format!("write `iterate({count}, z = start, step)`")),
         );
     }
 
@@ -276,6 +327,9 @@ impl Parser<'_> {
         let has_locals = matches!(steps, [only] if matches!(self.exprs[*only], Expr::Where { .. }));
         let hint = if has_locals {
             "give each step its own `where`".to_owned()
+        } else if states.len() == 1 {
+            "name a state for each step, or put brackets around the components of a vector"
+                .to_owned()
         } else {
             let names = self.names_of(states);
             format!("give one step for each of {names}, in this order")
@@ -299,4 +353,13 @@ impl Parser<'_> {
         }
         names.join(", ")
     }
+}
+
+/// The items of a form if all of them are values.
+fn values(pieces: &[Piece]) -> Option<Vec<Node>> {
+    let value = |piece: &Piece| match piece {
+        Piece::Value(node) => Some(*node),
+        _ => None,
+    };
+    pieces.iter().map(value).collect()
 }

@@ -168,21 +168,60 @@ impl Parser<'_> {
             self.disjunction();
             return None;
         }
+        self.complain_missing_local();
+        self.skip_local();
+        None
+    }
+
+    #[cold]
+    fn complain_missing_local(&mut self) {
         let message = format!("missing definition after {}", self.quote(self.last_span()));
         let span = if self.at(TokenKind::End) {
             self.last_span()
         } else {
             self.span()
         };
+        let hint = self.hint_for_local();
         self.complain(
             Diagnostic::error("missing-local", span, message)
                 .with_label("expected `name = value`")
-                .with_hint("write `… where a = value, b = value`"),
+                .with_hint(hint),
         );
-        if self.eat(TokenKind::Name) && !matches!(self.kind(), TokenKind::End | TokenKind::Comma) {
+    }
+
+    /// How the local that is here should be written.
+    fn hint_for_local(&self) -> String {
+        let has_field = self.ahead(1) == TokenKind::Dot && self.ahead(2) == TokenKind::Name;
+        let last = if has_field { 2 } else { 0 };
+        let is_compound =
+            self.ahead(last + 1).is_infix() && self.ahead(last + 2) == TokenKind::Equals;
+        let name = self.short(self.span().join(self.span_ahead(last)));
+        match self.kind() {
+            TokenKind::Name if is_compound => {
+                let operator = self.short(self.span_ahead(last + 1));
+                format!("write `{name} = {name} {operator} …`")
+            }
+            TokenKind::Name if has_field => format!("write `{name} = …`"),
+            _ => "write `… where a = value, b = value`".to_owned(),
+        }
+    }
+
+    /// Goes past what stands where a local should.
+    fn skip_local(&mut self) {
+        if !self.eat(TokenKind::Name) {
+            return;
+        }
+        while self.eat(TokenKind::Dot) {
+            self.eat(TokenKind::Name);
+        }
+        self.eat(TokenKind::Equals);
+        if self.kind().is_infix() && self.ahead(1) == TokenKind::Equals {
+            self.bump();
+            self.bump();
+        }
+        if !matches!(self.kind(), TokenKind::End | TokenKind::Comma) {
             self.disjunction();
         }
-        None
     }
 
     /// `where g(t) = …`

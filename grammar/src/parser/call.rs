@@ -20,7 +20,7 @@ impl Parser<'_> {
             let whole = callee.span.join(self.last_span());
             return self.error_node(whole);
         }
-        let form = self.scope.form(&callee.text);
+        let form = self.form_of(&callee);
         if form.is_some() && primes > 0 {
             self.complain_prime_of_form(&callee);
         }

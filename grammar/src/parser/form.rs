@@ -64,7 +64,7 @@ impl Parser<'_> {
         self.unbind_names(states.iter().map(|state| &state.0));
         let steps = self.steps_of(&states, steps);
         let span = callee.span.join(self.last_span());
-        if !self.steps_fit(callee, &states, &steps) {
+        if !self.steps_fit(callee, count, &states, &steps) {
             return self.error_node(span);
         }
         let expr = Expr::Iterate {
