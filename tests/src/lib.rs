@@ -5,5 +5,6 @@
 pub mod accuracy;
 pub mod corpus;
 pub mod holds;
+pub mod loops;
 pub mod mutate;
 pub mod units;
