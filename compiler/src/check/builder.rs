@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::builtins::advice;
+use super::library::MAX_LIBRARY_DEPTH;
 use super::names::MAX_CALL_DEPTH;
 use super::scope::Scope;
 use super::suggest::quoted;
@@ -234,7 +235,7 @@ impl<'a> Builder<'a> {
         body: ExprId,
     ) -> Value {
         // longer chains have been reported by the pass over names
-        if self.active.len() > MAX_CALL_DEPTH + 1 {
+        if self.active.len() > MAX_CALL_DEPTH + MAX_LIBRARY_DEPTH + 1 {
             return Value::Error;
         }
         let file = match source {
