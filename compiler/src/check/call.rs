@@ -4,6 +4,7 @@ use pullback_grammar::ast::{ExprId, Function, Name};
 use pullback_grammar::{Diagnostic, Span};
 use smallvec::SmallVec;
 
+use super::builder::Known;
 use super::builtins::advice;
 use super::library::LibraryFunction;
 use super::names::{listed, signature};
@@ -22,7 +23,17 @@ impl<'a> Builder<'a> {
         args: &'a [ExprId],
         span: Span,
     ) -> Value {
-        let values: Vec<Value> = args.iter().map(|&arg| self.expr(arg)).collect();
+        let user = self.user_function(&callee.text);
+        let mut values: Vec<Value> = Vec::new();
+        for (k, &arg) in args.iter().enumerate() {
+            let formal = user.and_then(|function| function.params.get(k));
+            let takes_records = formal.is_some_and(|formal| formal.ty.is_none());
+            values.push(if takes_records {
+                self.any(arg)
+            } else {
+                self.expr(arg)
+            });
+        }
         if primes > 0 {
             return self.report(
                 Diagnostic::error(
@@ -37,7 +48,7 @@ impl<'a> Builder<'a> {
             return Value::Error;
         }
         let name = callee.text.as_str();
-        if let Some(function) = self.user_function(name) {
+        if let Some(function) = user {
             let spans: Vec<Span> = args.iter().map(|&a| self.span(a)).collect();
             return self.call_function(function, values, &spans, span);
         }
@@ -76,7 +87,7 @@ impl<'a> Builder<'a> {
         total
     }
 
-    /// Calls a function of the program with checked arguments.
+    /// Calls a function of the program with checked arguments. The value may be a record, see [`Self::number`].
     pub fn call_function(
         &mut self,
         function: &'a Function,
@@ -100,8 +111,9 @@ impl<'a> Builder<'a> {
             }
         }
         let key = (Source::Program, name, values);
-        if let Some(value) = self.calls.get(&key) {
-            return value.clone();
+        if let Some(known) = self.calls.get(&key).cloned() {
+            let fits = self.reuse(known.loops, span);
+            return if fits { known.value } else { Value::Error };
         }
         let scope: Scope<'a, Value> = function
             .params
@@ -110,14 +122,21 @@ impl<'a> Builder<'a> {
             .zip(key.2.iter().cloned())
             .collect();
         let before = self.diagnostics.len();
+        let around = self.nesting.apart();
         let value = self.outside(name, Source::Program, scope, function.body);
+        let loops = self.nesting.join(around);
         for problem in self.diagnostics.iter_mut().skip(before) {
             if problem.code == "type-mismatch" && problem.related.is_empty() && !spans.is_empty() {
                 problem.related.push((span, "in this call".to_owned()));
             }
         }
         self.name_value(name, &value);
-        self.calls.insert(key, value.clone());
+        let known = Known {
+            value: value.clone(),
+            loops,
+            place: self.calls.len(),
+        };
+        self.calls.insert(key, known);
         value
     }
 
@@ -263,8 +282,9 @@ impl<'a> Builder<'a> {
             return Value::Error;
         }
         let key = (Source::Library, function.name, values);
-        if let Some(value) = self.calls.get(&key) {
-            return value.clone();
+        if let Some(known) = self.calls.get(&key).cloned() {
+            let fits = self.reuse(known.loops, span);
+            return if fits { known.value } else { Value::Error };
         }
         let scope = formals
             .iter()
@@ -272,17 +292,15 @@ impl<'a> Builder<'a> {
             .zip(key.2.iter().cloned())
             .collect();
         let before = self.diagnostics.len();
+        let around = self.nesting.apart();
         let body = function.function.body;
         let value = self.outside(function.name, Source::Library, scope, body);
+        let loops = self.nesting.join(around);
         let found = self.diagnostics.split_off(before);
-        if found.iter().any(Diagnostic::is_error) {
+        if let Some(problem) = found.iter().find(|problem| problem.is_error()) {
             let types: Vec<Type> = key.2.iter().filter_map(|v| v.ty(&self.graph)).collect();
-            let hint = if function.is_generic() {
-                format!("it is defined as {}", function.definition)
-            } else {
-                format!("it is written {}", function.usage)
-            };
-            return self.report(does_not_take(function.name, &types, span).with_hint(hint));
+            let problem = at_call(problem, function, &types, span);
+            return self.report(problem);
         }
         if !found.is_empty() && self.is_undefined(&value) {
             self.diagnostics.push(Diagnostic::warning(
@@ -291,7 +309,12 @@ impl<'a> Builder<'a> {
                 format!("`{}` of these constants is not a number", function.name),
             ));
         } else if value != Value::Error {
-            self.calls.insert(key, value.clone());
+            let known = Known {
+                value: value.clone(),
+                loops,
+                place: self.calls.len(),
+            };
+            self.calls.insert(key, known);
         }
         value
     }
@@ -301,6 +324,29 @@ impl<'a> Builder<'a> {
         let mut ids = value.ids().into_iter();
         ids.any(|id| self.graph.as_real(id).is_some_and(f64::is_nan))
     }
+}
+
+/// An error inside of a definition of the library, as the user can understand it: a limit that was exceeded, or
+/// arguments that do not fit.
+fn at_call(
+    problem: &Diagnostic,
+    function: &LibraryFunction,
+    types: &[Type],
+    span: Span,
+) -> Diagnostic {
+    if problem.code != "type-mismatch" {
+        return Diagnostic {
+            span,
+            related: Vec::new(),
+            ..problem.clone()
+        };
+    }
+    let hint = if function.is_generic() {
+        format!("it is defined as {}", function.definition)
+    } else {
+        format!("it is written `{}`", function.usage)
+    };
+    does_not_take(function.name, types, span).with_hint(hint)
 }
 
 fn does_not_take(name: &str, types: &[Type], span: Span) -> Diagnostic {
