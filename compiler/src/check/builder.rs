@@ -9,6 +9,7 @@ use super::bounds::Bounds;
 use super::builtins::advice;
 use super::fold::FoldBudget;
 use super::iteration::Iteration;
+use super::library::MAX_LIBRARY_DEPTH;
 use super::names::MAX_CALL_DEPTH;
 use super::nesting::{Extent, Nesting};
 use super::scope::Scope;
@@ -288,7 +289,7 @@ impl<'a> Builder<'a> {
         body: ExprId,
     ) -> Value {
         // longer chains have been reported by the pass over names
-        if self.active.len() > MAX_CALL_DEPTH + 1 {
+        if self.active.len() > MAX_CALL_DEPTH + MAX_LIBRARY_DEPTH + 1 {
             return Value::Error;
         }
         let file = match source {

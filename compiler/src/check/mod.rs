@@ -31,9 +31,13 @@ use crate::table;
 /// Whether a name is a function of the language without being defined in the program.
 #[must_use]
 pub fn is_builtin_function(name: &str) -> bool {
+    hides_builtin(name) || library::by_name(name).is_some()
+}
+
+/// Whether a definition of this name hides what a reader takes to be fixed.
+fn hides_builtin(name: &str) -> bool {
     table::by_name(name).is_some()
         || builtins::by_name(name).is_some()
-        || library::by_name(name).is_some()
         || is_reserved_function(name)
 }
 

@@ -411,7 +411,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                     callee,
                     given,
                     &function.params.len().to_string(),
-                    &signature(function),
+                    &listed(&[signature(function)]),
                 )
                 .with_related(function.name.span, "defined here");
                 self.diagnostics.push(problem);
@@ -507,6 +507,20 @@ fn unknown_type(ty: &Name) -> Diagnostic {
     }
 }
 
+/// "`a`, `b` or `c`"
+pub fn listed<S: AsRef<str>>(items: &[S]) -> String {
+    let mut out = String::new();
+    for (k, item) in items.iter().enumerate() {
+        let joint = match items.len() - k {
+            _ if k == 0 => "",
+            1 => " or ",
+            _ => ", ",
+        };
+        out.extend([joint, "`", item.as_ref(), "`"]);
+    }
+    out
+}
+
 /// `name(a, b: complex)`
 pub fn signature(function: &Function) -> String {
     let params: Vec<String> = function
@@ -531,17 +545,11 @@ fn wrong_arity(callee: &Name, given: usize, expected: &str, usage: &str) -> Diag
         ),
     )
     .with_label(format!("called with {given}"))
-    .with_hint(format!("it is written `{usage}`"))
+    .with_hint(format!("it is written {usage}"))
 }
 
 /// For a builtin: what it expects where `given` is wrong, and how it is written.
 fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
-    if let Some(row) = table::by_name(name) {
-        let variadic = matches!(row.prim, crate::ir::Prim::Min | crate::ir::Prim::Max);
-        let arity = row.typing.arity();
-        let fits = given == arity || (variadic && given > arity);
-        return Some(((!fits).then(|| arity.to_string()), row.usage.to_owned()));
-    }
     if let Some(builtin) = builtins::by_name(name) {
         let expected = (!builtin.arity.contains(&given)).then(|| {
             let (lo, hi) = (builtin.arity.start(), builtin.arity.end());
@@ -551,14 +559,28 @@ fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
                 format!("{lo} to {hi}")
             }
         });
-        return Some((expected, builtin.usage.to_owned()));
+        return Some((expected, listed(&[builtin.usage])));
     }
-    let function = library::by_name(name)?;
-    let arity = function.function.params.len();
-    Some((
-        (given != arity).then(|| arity.to_string()),
-        signature(function.function),
-    ))
+    let row = table::by_name(name);
+    let definitions = library::by_name(name).unwrap_or_default();
+    let mut usages: Vec<&str> = definitions.iter().map(|f| f.usage.as_str()).collect();
+    let mut arities: Vec<usize> = definitions.iter().map(|f| f.types.len()).collect();
+    if let Some(row) = row {
+        let variadic = matches!(row.prim, crate::ir::Prim::Min | crate::ir::Prim::Max);
+        let arity = row.typing.arity();
+        arities.push(if variadic { given.max(arity) } else { arity });
+        usages.push(row.usage);
+    }
+    if usages.is_empty() {
+        return None;
+    }
+    arities.sort_unstable();
+    arities.dedup();
+    let expected = (!arities.contains(&given)).then(|| {
+        let counts: Vec<String> = arities.iter().map(usize::to_string).collect();
+        listed(&counts).replace('`', "")
+    });
+    Some((expected, listed(&usages)))
 }
 
 /// Reports definitions that need themselves, and chains of calls that are too long.
