@@ -30,6 +30,7 @@ mod parse;
 mod parser;
 mod printer;
 mod render;
+mod same;
 mod scope;
 mod stray;
 
@@ -38,4 +39,5 @@ pub use format::format;
 pub use parse::{Parsed, parse, parse_bytes};
 pub use printer::{print, print_expr, print_item};
 pub use render::render;
+pub use same::same_tree;
 pub use span::Span;
