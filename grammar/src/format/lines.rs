@@ -120,16 +120,23 @@ impl Writer {
             return self.flat(run);
         }
         self.expression(head, 0, Base::at(base), 0);
-        let has_place_below = base + STEP + width(value) + tail <= WIDTH
-            && !value.iter().any(Piece::breaks)
-            && value.iter().all(|piece| piece.kind != TokenKind::LBrace)
-            && !LEVELS
-                .iter()
-                .any(|level| split(value, level).nth(1).is_some());
-        if !first.notes.is_empty() || (has_place_below && !self.fits(value, tail)) {
+        if !first.notes.is_empty() || self.is_better_below(value, base + STEP, tail) {
             self.line(base + STEP, &first.notes);
         }
         self.expression(value, 0, Base::at(base), tail);
+    }
+
+    /// Whether the first operand of a value has no place on this line, but on one that begins at `column`.
+    fn is_better_below(&self, value: &[Piece<'_>], column: usize, tail: usize) -> bool {
+        let breaks = |piece: &Piece<'_>| LEVELS.iter().any(|test| test(piece));
+        let mut operands = split(value, breaks);
+        let operand = operands.next().unwrap_or_default();
+        let tail = if operands.next().is_some() { 0 } else { tail };
+        let is_choice = operand.iter().any(|piece| piece.kind == TokenKind::LBrace);
+        !is_choice
+            && !operand.iter().any(Piece::breaks)
+            && !self.fits(operand, tail)
+            && column + width(operand) + tail <= WIDTH
     }
 
     /// An expression without locals, taken apart at operators of this level or tighter ones.
@@ -207,7 +214,8 @@ impl Writer {
                 self.text(",");
             }
         }
-        self.line(base, &group.notes);
+        self.notes(base + STEP, &group.notes);
+        self.begin(base);
         self.text(group.close);
     }
 
@@ -276,7 +284,12 @@ impl Writer {
 
     /// Begins a line, after the comments that stand before what it begins with.
     fn line(&mut self, column: usize, notes: &[Note<'_>]) {
-        let column = column.min(MAX_INDENT);
+        self.notes(column, notes);
+        self.begin(column);
+    }
+
+    /// Comments: behind what they are about, or each on a line of its own.
+    fn notes(&mut self, column: usize, notes: &[Note<'_>]) {
         for note in notes {
             if note.is_behind && !self.is_fresh {
                 self.out.push_str("  ");
@@ -286,10 +299,10 @@ impl Writer {
             self.out.push_str(&super::tidy(note.text));
             self.is_fresh = false;
         }
-        self.begin(column);
     }
 
     fn begin(&mut self, column: usize) {
+        let column = column.min(MAX_INDENT);
         self.out.push('\n');
         self.out.extend(std::iter::repeat_n(' ', column));
         self.column = column;
