@@ -56,6 +56,10 @@ pub(super) fn blank_between(
         // `1.. .5`, not three points.
         return after.0.span.text(text).starts_with('.');
     }
+    if left == TokenKind::Superscript && right == left {
+        // `x² ³` is (x²)³, and x²³ is not.
+        return gap;
+    }
     match (before.1, after.1) {
         (_, Place::Postfix | Place::OpeningArguments) => return false,
         (Place::Prefix, _) => return before.0.span.text(text) == "not",
