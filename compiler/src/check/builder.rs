@@ -10,6 +10,7 @@ use super::names::MAX_CALL_DEPTH;
 use super::scope::Scope;
 use super::suggest::quoted;
 use super::symbols::Symbols;
+use super::variables::Frame;
 use super::{Value, library, named_constant};
 use crate::ir::{Graph, Id, Op, Ty};
 use crate::types::Type;
@@ -41,6 +42,11 @@ pub struct Builder<'a> {
     /// Functions and constants whose values are being built.
     pub(super) active: Vec<&'a str>,
     pub(super) calls: FxHashMap<(Source, &'a str, Vec<Value>), Value>,
+    pub(super) frame: Frame<'a>,
+    /// Derivatives of functions at values, by their order.
+    pub(super) derivatives: FxHashMap<(Source, &'a str, u32, Value), Value>,
+    /// Number of nodes that the passes which take derivatives have visited.
+    pub(super) visits: usize,
     constants: FxHashMap<&'a str, Value>,
     program: &'a File,
 }
@@ -59,6 +65,9 @@ impl<'a> Builder<'a> {
             depth: 0,
             active: Vec::new(),
             calls: FxHashMap::default(),
+            frame: Frame::default(),
+            derivatives: FxHashMap::default(),
+            visits: 0,
             constants: FxHashMap::default(),
             program,
         }
@@ -78,6 +87,7 @@ impl<'a> Builder<'a> {
 
     /// Defines a name for what is built next, such as an input of a formula.
     pub fn define(&mut self, name: &'a str, value: Value) {
+        self.frame.parameters.push((name, value.clone()));
         self.scope.push(name, value);
     }
 
@@ -132,8 +142,9 @@ impl<'a> Builder<'a> {
             Expr::Piecewise { arms, otherwise } => {
                 self.choice(arms.iter().copied(), *otherwise, span)
             }
-            Expr::Where { body, locals } => self.locals(*body, locals),
-            Expr::Series { .. } | Expr::Iterate { .. } | Expr::Integral { .. } => Value::Error,
+            Expr::Where { body, locals } => self.locals(*body, locals, span),
+            Expr::Integral { body, range } => self.integral(*body, range, span),
+            Expr::Series { .. } | Expr::Iterate { .. } => Value::Error,
         }
     }
 
@@ -157,15 +168,16 @@ impl<'a> Builder<'a> {
         value
     }
 
-    fn locals(&mut self, body: ExprId, locals: &'a [Local]) -> Value {
-        let depth = self.scope.len();
+    fn locals(&mut self, body: ExprId, locals: &'a [Local], span: Span) -> Value {
+        let (depth, bound) = (self.scope.len(), self.bound());
         for local in locals {
             let value = self.expr(local.value);
             self.name_value(&local.name.text, &value);
-            self.scope.push(&local.name.text, value);
+            self.bind_local(&local.name.text, value, span);
         }
-        let value = self.expr(body);
+        let mut value = self.expr(body);
         self.scope.truncate(depth);
+        self.release(bound, std::slice::from_mut(&mut value));
         value
     }
 
@@ -230,7 +242,7 @@ impl<'a> Builder<'a> {
         &mut self,
         name: &'a str,
         source: Source,
-        scope: Scope<'a, Value>,
+        mut scope: Scope<'a, Value>,
         body: ExprId,
     ) -> Value {
         // longer chains have been reported by the pass over names
@@ -243,11 +255,15 @@ impl<'a> Builder<'a> {
         };
         let file = std::mem::replace(&mut self.file, file);
         let source = std::mem::replace(&mut self.source, source);
+        let frame = self.frame_of(&mut scope, self.span(body));
+        let frame = std::mem::replace(&mut self.frame, frame);
         let scope = std::mem::replace(&mut self.scope, scope);
         self.active.push(name);
-        let value = self.expr(body);
+        let mut value = self.expr(body);
         self.active.pop();
-        (self.file, self.source, self.scope) = (file, source, scope);
+        self.release(0, std::slice::from_mut(&mut value));
+        (self.file, self.source) = (file, source);
+        (self.scope, self.frame) = (scope, frame);
         value
     }
 
@@ -340,6 +356,12 @@ impl<'a> Builder<'a> {
         (self.source == Source::Program)
             .then(|| self.symbols.functions.get(name).copied())
             .flatten()
+    }
+
+    /// Whether the program defines a value of this name.
+    pub(super) fn is_defined_value(&self, name: &str) -> bool {
+        self.source == Source::Program
+            && (self.symbols.constants.contains_key(name) || self.symbols.params.contains_key(name))
     }
 
     /// Where an expression of the current text stands, in the user's text.

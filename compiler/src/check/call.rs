@@ -8,7 +8,7 @@ use super::builtins::advice;
 use super::names::signature;
 use super::scope::Scope;
 use super::suggest::quoted;
-use super::{Builder, Source, Value, builtins, library};
+use super::{Builder, Source, Value, builtins, calculus, library};
 use crate::ir::{Prim, Ty};
 use crate::table;
 use crate::types::Type;
@@ -21,24 +21,32 @@ impl<'a> Builder<'a> {
         args: &'a [ExprId],
         span: Span,
     ) -> Value {
-        let values: Vec<Value> = args.iter().map(|&arg| self.expr(arg)).collect();
-        if primes > 0 {
-            return self.report(
-                Diagnostic::error(
-                    "not-yet",
-                    callee.span,
-                    "derivatives inside of a formula are not available in this version",
-                )
-                .with_hint("`pullback eval --what derivative` computes them"),
-            );
+        let name = callee.text.as_str();
+        let own = self.user_function(name).is_some();
+        if let Some(operator) = calculus::by_name(name).filter(|_| !own) {
+            return self.calculus(operator, args, span);
         }
+        if primes > 0 {
+            return self.prime(callee, primes, args, span);
+        }
+        let values: Vec<Value> = args.iter().map(|&arg| self.expr(arg)).collect();
+        let spans: Vec<Span> = args.iter().map(|&a| self.span(a)).collect();
+        self.invoke(name, values, &spans, span)
+    }
+
+    /// Calls the function of this name, whatever it is; `spans` are the places of the arguments where they have any.
+    pub(super) fn invoke(
+        &mut self,
+        name: &'a str,
+        values: Vec<Value>,
+        spans: &[Span],
+        span: Span,
+    ) -> Value {
         if values.contains(&Value::Error) {
             return Value::Error;
         }
-        let name = callee.text.as_str();
         if let Some(function) = self.user_function(name) {
-            let spans: Vec<Span> = args.iter().map(|&a| self.span(a)).collect();
-            return self.call_function(function, values, &spans, span);
+            return self.call_function(function, values, spans, span);
         }
         if let Some(builtin) = builtins::by_name(name) {
             if !builtin.arity.contains(&values.len()) {

@@ -5,6 +5,8 @@ use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+mod calculus;
+
 use super::scope::Scope;
 use super::suggest::{quoted, shortened};
 use super::symbols::reserved;
@@ -184,8 +186,20 @@ impl<'a, 'd> Walk<'a, 'd> {
                 self.expr(*first);
                 rest.iter().for_each(|(_, e)| self.expr(*e));
             }
-            Expr::Call { callee, args, .. } => {
-                self.callee(callee, args.len());
+            Expr::Call {
+                callee,
+                primes,
+                args,
+            } => {
+                if let Some(operator) = self.operator(callee)
+                    && !is_reserved_function(&callee.text)
+                {
+                    self.calculus(operator, callee, *primes, args);
+                    return;
+                }
+                if !self.primes(callee, *primes, args) {
+                    self.callee(callee, args.len());
+                }
                 let is_reserved = is_reserved_function(&callee.text)
                     && !self.symbols.functions.contains_key(callee.text.as_str());
                 if is_reserved {
@@ -213,7 +227,15 @@ impl<'a, 'd> Walk<'a, 'd> {
                 otherwise.iter().for_each(|e| self.expr(*e));
             }
             Expr::Where { body, locals } => self.locals(*body, locals),
-            Expr::Series { .. } | Expr::Iterate { .. } | Expr::Integral { .. } => {}
+            Expr::Integral { body, range } => {
+                self.expr(range.lower);
+                self.expr(range.upper);
+                let depth = self.scope.len();
+                self.scope.push(&range.name.text, ());
+                self.expr(*body);
+                self.scope.truncate(depth);
+            }
+            Expr::Series { .. } | Expr::Iterate { .. } => {}
         }
     }
 
@@ -412,7 +434,8 @@ impl<'a, 'd> Walk<'a, 'd> {
     fn usage(&self, name: &str) -> String {
         match self.symbols.functions.get(name) {
             Some(function) => signature(function),
-            None => format!("{name}(…)"),
+            None => super::calculus::by_name(name)
+                .map_or_else(|| format!("{name}(…)"), |o| o.usage.to_owned()),
         }
     }
 
@@ -441,9 +464,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                 )
                 .with_label("reserved for a later version")
                 .with_hint(match text {
-                    "sum" | "product" | "iterate" => "write the terms out",
                     "integral" => "write the integral in closed form",
-                    _ => "`pullback eval --what gradient` computes derivatives",
+                    _ => "write the terms out",
                 }),
             );
             return;
@@ -479,6 +501,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                     .flat_map(|b| b.names.iter().copied()),
             )
             .chain(library::library_functions().iter().map(|f| f.name))
+            .chain(super::calculus::operators().iter().map(|o| o.name))
             .chain(self.symbols.functions.keys().copied());
         match nearest(text, known) {
             Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),

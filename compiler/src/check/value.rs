@@ -41,4 +41,16 @@ impl Value {
             Self::Error => SmallVec::new(),
         }
     }
+
+    /// A value of the same form with other nodes.
+    #[must_use]
+    pub fn with_ids(&self, ids: &[Id]) -> Self {
+        match (self, ids) {
+            (Self::Scalar(_), &[id]) => Self::Scalar(id),
+            (Self::Vector(items), _) if items.len() == ids.len() => {
+                Self::Vector(SmallVec::from_slice(ids))
+            }
+            _ => Self::Error,
+        }
+    }
 }
