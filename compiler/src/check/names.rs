@@ -194,7 +194,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                 if let Some(operator) = self.operator(callee)
                     && !is_reserved_function(&callee.text)
                 {
-                    self.calculus(operator, callee, *primes, args);
+                    let span = exprs.span(id);
+                    self.calculus(operator, (callee, span), *primes, args);
                     return;
                 }
                 if !self.primes(callee, *primes, args) {

@@ -164,6 +164,9 @@ impl<'a> Builder<'a> {
             }
         }
         let value = self.invoke(&name.text, leaves.clone(), &spans, span);
+        if value == Value::Error {
+            return Value::Error;
+        }
         let subject = Subject {
             span,
             text: self.user_function(&name.text).map(|f| f.body),

@@ -1,7 +1,7 @@
 //! Names in the operators of the calculus: their variables are uses, and a bare name of a function stands for it.
 
 use pullback_grammar::ast::{Expr, ExprId, Name};
-use pullback_grammar::{Diagnostic, print_expr};
+use pullback_grammar::{Diagnostic, Span, print_expr};
 
 use super::super::calculus::{
     self, Kind, MAX_ORDER, Operator, order, parameters_of, point_and_order, primes_misused,
@@ -43,7 +43,7 @@ impl<'a> Walk<'a, '_> {
     pub(super) fn calculus(
         &mut self,
         operator: &Operator,
-        callee: &'a Name,
+        (callee, span): (&'a Name, Span),
         primes: u32,
         args: &'a [ExprId],
     ) {
@@ -62,9 +62,9 @@ impl<'a> Walk<'a, '_> {
         };
         let depth = self.scope.len();
         match self.bare_function(first) {
-            Some(name) => self.of_function(operator, callee, (first, name), rest),
+            Some(name) => self.of_function(operator, span, (first, name), rest),
             None => {
-                self.variables(operator, callee, first, rest);
+                self.variables(operator, span, first, rest);
                 self.expr(first);
             }
         }
@@ -85,7 +85,7 @@ impl<'a> Walk<'a, '_> {
     fn of_function(
         &mut self,
         operator: &Operator,
-        callee: &'a Name,
+        span: Span,
         (first, name): (ExprId, &'a Name),
         rest: &'a [ExprId],
     ) {
@@ -101,7 +101,7 @@ impl<'a> Walk<'a, '_> {
                 self.expr(points[0]);
                 return;
             }
-            self.names_behind(operator, callee, &shortened(text), first, rest);
+            self.names_behind(operator, span, &shortened(text), first, rest);
             return;
         }
         rest.iter().for_each(|&point| self.expr(point));
@@ -132,16 +132,10 @@ impl<'a> Walk<'a, '_> {
     }
 
     /// The variables behind an expression.
-    fn variables(
-        &mut self,
-        operator: &Operator,
-        callee: &'a Name,
-        first: ExprId,
-        rest: &'a [ExprId],
-    ) {
+    fn variables(&mut self, operator: &Operator, span: Span, first: ExprId, rest: &'a [ExprId]) {
         if operator.kind == Kind::Diff || !rest.is_empty() {
             let shown = shortened(&print_expr(self.exprs, first));
-            self.names_behind(operator, callee, &shown, first, rest);
+            self.names_behind(operator, span, &shown, first, rest);
         }
     }
 
@@ -149,7 +143,7 @@ impl<'a> Walk<'a, '_> {
     fn names_behind(
         &mut self,
         operator: &Operator,
-        callee: &'a Name,
+        span: Span,
         shown: &str,
         first: ExprId,
         rest: &'a [ExprId],
@@ -174,8 +168,6 @@ impl<'a> Walk<'a, '_> {
                 _ => return self.not_a_variable(operator, shown, arg),
             }
         }
-        let last = rest.last().copied().unwrap_or(first);
-        let span = callee.span.join(self.exprs.span(last));
         if total == 0 {
             let name = self.candidate(first).unwrap_or("x");
             let message = format!("`{}` does not say by which variable", operator.name);
