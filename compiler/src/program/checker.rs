@@ -26,11 +26,13 @@ pub(super) struct Checker<'a> {
     pub(super) signatures: FxHashMap<&'a str, Vec<Signature>>,
     /// Types of the constants that are used.
     pub(super) constants: FxHashMap<&'a str, Type>,
+    /// The range of each parameter that states one.
+    pub(super) ranges: Vec<Option<(f64, f64)>>,
 }
 
 impl<'a> Checker<'a> {
     pub(super) fn builder(&self) -> Builder<'a> {
-        Builder::new(self.file, self.symbols)
+        Builder::new(self.file, self.symbols).with_ranges(&self.ranges)
     }
 
     /// Takes over what a builder found.

@@ -122,6 +122,7 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
         called: FxHashSet::default(),
         signatures: FxHashMap::default(),
         constants: FxHashMap::default(),
+        ranges: Vec::new(),
     };
     let params = checker.params();
     let pictures = checker.pictures();
