@@ -149,7 +149,9 @@ impl<'a> Builder<'a> {
         let results = self.repeat(binder, steps, None, states, inside);
         match value {
             Value::Vector(_) => Value::Vector(results),
-            _ => results.first().map_or(Value::Error, |&id| Value::Scalar(id)),
+            _ => results
+                .first()
+                .map_or(Value::Error, |&id| Value::Scalar(id)),
         }
     }
 
@@ -330,7 +332,10 @@ impl<'a> Builder<'a> {
             Diagnostic::error(
                 "type-mismatch",
                 span,
-                format!("{} starts as {was}, but a step makes it {is}", quoted(&name.text)),
+                format!(
+                    "{} starts as {was}, but a step makes it {is}",
+                    quoted(&name.text)
+                ),
             )
             .with_label(format!("this is {is}"))
             .with_related(started, format!("this is {was}"))
@@ -518,10 +523,7 @@ impl<'a> Builder<'a> {
                     "give the parameter a range: `param {} = … in 0..100`",
                     shortened(&param.name.text)
                 )),
-            None => problem.with_hint(format!(
-                "state a maximum: min({}, 1000)",
-                shortened(&text)
-            )),
+            None => problem.with_hint(format!("state a maximum: min({}, 1000)", shortened(&text))),
         };
         self.report(problem);
     }

@@ -19,8 +19,8 @@ mod value;
 pub use builder::{Builder, Source};
 pub use builtins::{Builtin, builtins};
 pub use library::{LibraryFunction, library_functions};
-pub use nesting::{MAX_LOOP_NESTING, MAX_STEPS};
 pub use names::{check_names, free_variables, not_constant, signature};
+pub use nesting::{MAX_LOOP_NESTING, MAX_STEPS};
 pub use record::Record;
 pub use suggest::{nearest, quoted, shortened};
 pub use symbols::{MAX_PARAMS, Symbols};
@@ -31,7 +31,7 @@ use crate::table;
 /// Whether a name is a function of the language without being defined in the program.
 #[must_use]
 pub fn is_builtin_function(name: &str) -> bool {
-    hides_builtin(name) || library::by_name(name).is_some()
+    hides_builtin(name) || (library::by_name(name).is_some() && !library::is_private(name))
 }
 
 /// Whether a definition of this name hides what a reader takes to be fixed.

@@ -51,10 +51,7 @@ impl<'a> Builder<'a> {
                 let name = shortened(&name.text);
                 format!("name one of them: `{name}.{}`", shortened(first))
             }
-            _ => format!(
-                "name one of them: `r.{} where r = …`",
-                shortened(first)
-            ),
+            _ => format!("name one of them: `r.{} where r = …`", shortened(first)),
         };
         self.report(
             Diagnostic::error(
@@ -93,7 +90,8 @@ impl<'a> Builder<'a> {
 
     /// Components of a vector.
     fn swizzle(&mut self, value: &Value, field: &Name) -> Value {
-        let (Some(items), Some(places)) = (self.components(value, field), self.places(value, field))
+        let (Some(items), Some(places)) =
+            (self.components(value, field), self.places(value, field))
         else {
             return Value::Error;
         };
