@@ -47,9 +47,13 @@ fn entries() -> Vec<Entry> {
         also: also(builtin.names),
         doc: builtin.doc.to_owned(),
     });
-    let library = check::library_functions().iter().map(|function| Entry {
-        usage: function.usage.to_owned(),
-        types: "as defined",
+    let library = check::library_functions().map(|function| Entry {
+        usage: function.usage.clone(),
+        types: if function.is_generic() {
+            "numbers, vectors by components"
+        } else {
+            "as written"
+        },
         also: Vec::new(),
         doc: function.doc.to_owned(),
     });
