@@ -5,6 +5,7 @@
 pub mod accuracy;
 pub mod calculus;
 pub mod corpus;
+pub mod formatting;
 pub mod holds;
 pub mod mutate;
 pub mod units;
