@@ -113,6 +113,26 @@ impl<'a> Builder<'a> {
         self.calls.keys().filter(of_program).map(|key| key.1)
     }
 
+    /// The program's functions that have been called without an error, with the types of the arguments and of the
+    /// value; one for each call.
+    pub fn signatures(&self) -> impl Iterator<Item = (&'a str, Vec<Type>, Type)> + '_ {
+        self.calls
+            .iter()
+            .filter_map(|((source, name, arguments), value)| {
+                let types = arguments.iter().map(|argument| argument.ty(&self.graph));
+                let inputs = types.collect::<Option<Vec<Type>>>()?;
+                let result = value.value.ty(&self.graph)?;
+                (*source == Source::Program).then_some((*name, inputs, result))
+            })
+    }
+
+    /// The program's constants that have been used without an error, with their types.
+    pub fn constant_types(&self) -> impl Iterator<Item = (&'a str, Type)> + '_ {
+        let typed =
+            |(name, known): (&&'a str, &(Value, usize))| Some((*name, known.0.ty(&self.graph)?));
+        self.constants.iter().filter_map(typed)
+    }
+
     /// Reports a problem; the value is then an error, which is not reported again.
     pub fn report(&mut self, problem: Diagnostic) -> Value {
         self.diagnostics.push(problem);

@@ -84,6 +84,10 @@ impl Value {
             (Self::Vector(items), _) if items.len() == ids.len() => {
                 Self::Vector(SmallVec::from_slice(ids))
             }
+            (Self::Record(record), _) => {
+                let value = record.value.as_ref();
+                value.map_or(Self::Error, |value| value.with_ids(ids))
+            }
             _ => Self::Error,
         }
     }
