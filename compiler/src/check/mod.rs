@@ -42,13 +42,7 @@ fn hides_builtin(name: &str) -> bool {
     table::by_name(name).is_some()
         || builtins::by_name(name).is_some()
         || calculus::by_name(name).is_some()
-        || is_reserved_function(name)
-}
-
-/// Names of functions that the language reserves and does not have yet.
-#[must_use]
-pub fn is_reserved_function(name: &str) -> bool {
-    matches!(name, "sum" | "product" | "iterate" | "integral")
+        || matches!(name, "sum" | "product" | "iterate")
 }
 
 /// The value of a named constant of the language.
