@@ -38,8 +38,8 @@ pub(crate) enum Form {
 impl Form {
     fn of(name: &str) -> Option<Self> {
         Some(match name {
-            "sum" | "∑" => Self::Series(SeriesKind::Sum),
-            "product" | "∏" => Self::Series(SeriesKind::Product),
+            "sum" => Self::Series(SeriesKind::Sum),
+            "product" => Self::Series(SeriesKind::Product),
             "iterate" => Self::Iterate,
             "integral" => Self::Integral,
             _ => return None,
@@ -100,22 +100,22 @@ impl<'a> Scope<'a> {
 
     /// Adds a function of the file.
     pub(crate) fn define_function(&mut self, name: &'a str) {
-        self.functions.insert(name);
+        self.functions.insert(in_letters(name));
     }
 
     /// Adds a constant or a `param` of the file.
     pub(crate) fn define_constant(&mut self, name: &'a str) {
-        self.constants.insert(name);
+        self.constants.insert(in_letters(name));
     }
 
     /// A parameter or local begins to hold.
     pub(crate) fn bind(&mut self, name: &'a str) {
-        *self.bound.entry(name).or_default() += 1;
+        *self.bound.entry(in_letters(name)).or_default() += 1;
     }
 
     /// A parameter or local ends to hold.
     pub(crate) fn unbind(&mut self, name: &str) {
-        if let Some(count) = self.bound.get_mut(name) {
+        if let Some(count) = self.bound.get_mut(in_letters(name)) {
             *count = count.saturating_sub(1);
         }
     }
@@ -132,6 +132,7 @@ impl<'a> Scope<'a> {
 
     /// What the name stands for here.
     pub(crate) fn role(&self, name: &str) -> Role {
+        let name = in_letters(name);
         if self.bound.get(name).is_some_and(|&count| count > 0) {
             Role::Value
         } else if self.functions.contains(name) {
@@ -149,6 +150,7 @@ impl<'a> Scope<'a> {
 
     /// The form that a call of this function is, if it is one.
     pub(crate) fn form(&self, callee: &str) -> Option<Form> {
+        let callee = in_letters(callee);
         Form::of(callee).filter(|_| !self.functions.contains(callee))
     }
 
@@ -160,5 +162,14 @@ impl<'a> Scope<'a> {
     /// Whether `callee(f)(x, y)` is `callee(f, x, y)`.
     pub(crate) fn takes_point(&self, callee: &str) -> bool {
         callee != "quadrature" && self.takes_function(callee)
+    }
+}
+
+/// The word for which a sign stands, so that whoever defines one of them hides both.
+fn in_letters(name: &str) -> &str {
+    match name {
+        "∑" => "sum",
+        "∏" => "product",
+        _ => name,
     }
 }

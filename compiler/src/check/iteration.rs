@@ -19,7 +19,6 @@ pub(super) struct Iteration<'a> {
     pub states: &'a [(Name, ExprId)],
     pub steps: &'a [ExprId],
     pub until: Option<ExprId>,
-    pub span: Span,
 }
 
 /// How many steps a loop does.
@@ -42,13 +41,7 @@ struct Body {
 
 impl<'a> Builder<'a> {
     /// A series: one loop for each running variable, the first outermost.
-    pub(super) fn series(
-        &mut self,
-        kind: SeriesKind,
-        ranges: &'a [Range],
-        term: ExprId,
-        span: Span,
-    ) -> Value {
+    pub(super) fn series(&mut self, kind: SeriesKind, ranges: &'a [Range], term: ExprId) -> Value {
         let Some((range, inner)) = ranges.split_first() else {
             return self.expr(term);
         };
@@ -75,9 +68,12 @@ impl<'a> Builder<'a> {
         self.bounds.limits.insert(binder, limit);
         let depth = self.scope.len();
         self.name_value(&range.name.text, &running);
-        self.scope.push(&range.name.text, running);
-        let value = self.series(kind, inner, term, span);
+        let bound = self.bound();
+        let body = self.span(range.upper).join(self.span(term));
+        self.bind_running(&range.name.text, running, body);
+        let mut value = self.series(kind, inner, term);
         self.scope.truncate(depth);
+        self.release(bound, std::slice::from_mut(&mut value));
         let inside = self.nesting.leave(limit, before);
         match steps {
             Some(steps) => self.accumulate(kind, binder, steps, inside, (&value, term)),

@@ -101,6 +101,26 @@ impl Parser<'_> {
         );
     }
 
+    /// `log|x|^2`: of the argument or of the value?
+    #[cold]
+    pub(crate) fn complain_power_of_bars(&mut self, callee: &Name, bars: Span) {
+        let (name, arg) = (shorten(&callee.text), self.short(bars));
+        let operator = self.short(self.span());
+        let power = if self.at(TokenKind::Caret) {
+            "^…".to_owned()
+        } else {
+            operator
+        };
+        let message = format!("it is not clear what is raised in `{name}{arg}{power}`");
+        self.complain(
+            Diagnostic::error("ambiguous-power", self.span(), message)
+                .with_label("of the argument, or of the value?")
+                .with_hint(format!(
+                    "write `{name}({arg}{power})` or `{name}({arg}){power}`"
+                )),
+        );
+    }
+
     /// `grad(f)()`: the brackets of the point are there, the point is not.
     pub(crate) fn check_point(&mut self, callee: &Name, args: &[ExprId]) {
         let [function] = args else { return };
