@@ -7,7 +7,9 @@
 pub mod arc;
 pub mod complex;
 pub mod gamma;
+pub mod polygamma;
 pub mod real;
+pub mod slope;
 pub mod wave;
 
 pub use complex::Complex;
