@@ -16,10 +16,10 @@ mod suggest;
 mod symbols;
 mod value;
 
-pub use builder::{Builder, Source};
+pub use builder::{Builder, MAX_DEPTH, Source};
 pub use builtins::{Builtin, builtins};
 pub use library::{LibraryFunction, library_functions};
-pub use names::{check_names, free_variables, not_constant, signature};
+pub use names::{MAX_CALL_DEPTH, check_names, free_variables, not_constant, signature};
 pub use nesting::{MAX_LOOP_NESTING, MAX_STEPS};
 pub use record::Record;
 pub use suggest::{nearest, quoted, shortened};
