@@ -105,7 +105,7 @@ impl Maker<'_> {
                 self.functions.push(name);
             }
         }
-        for _ in 0..self.random.below(3) {
+        for _ in 0..self.random.below(2) {
             let name = self.bindable();
             if !self.functions.contains(&name) && !self.constants.contains(&name) {
                 self.constants.push(name);
@@ -125,8 +125,8 @@ impl Maker<'_> {
             };
             self.add(item);
         }
-        for _ in 0..1 + self.random.below(2) {
-            let item = if self.random.once_in(3) {
+        for index in 0..1 + self.random.below(2) {
+            let item = if index > 0 && self.random.once_in(2) {
                 self.show()
             } else {
                 let size = self.random.below(11);
