@@ -8,6 +8,7 @@ use pullback_grammar::ast::{
     BinaryOp, CompareOp, Constant, Expr, ExprId, File, Formal, Formula, Function, Item, Local,
     Name, Param, Range, SeriesKind, Setting, Show, UnaryOp,
 };
+use pullback_grammar::token::tokenize;
 
 use super::is_function;
 
@@ -484,4 +485,28 @@ pub fn with_comments(text: &str, random: &mut Random) -> String {
         out.push('\n');
     }
     out
+}
+
+/// The text of a program with a few tokens left out, doubled, exchanged or put elsewhere.
+pub fn damaged(text: &str, random: &mut Random) -> String {
+    let (tokens, _) = tokenize(text);
+    let mut words: Vec<&str> = Vec::new();
+    let mut end = 0;
+    for token in &tokens {
+        // The blanks before a token are a word of their own, as some of them matter.
+        words.push(&text[end..token.span.start as usize]);
+        words.push(token.span.text(text));
+        end = token.span.end as usize;
+    }
+    for _ in 0..1 + random.below(2) {
+        let (from, to) = (random.below(words.len()), random.below(words.len()));
+        match random.below(5) {
+            0 => words[from] = "",
+            1 => words[from] = random.pick(&["\n", " ", "(", ")", ",", "=", "k in 1..2,", "until"]),
+            2 => words[from] = words[to],
+            3 => words.swap(from, to),
+            _ => words.insert(to, words[from]),
+        }
+    }
+    words.concat()
 }
