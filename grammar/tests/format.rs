@@ -150,6 +150,15 @@ fn operand() -> impl Strategy<Value = String> {
                 let arms: String = arms.iter().map(|(a, gap, x)| format!("{gap}{a} < 1:{x},")).collect();
                 format!("{{{arms}{gap}else:{other},{gap}}}")
             }),
+            1 => (gap.clone(), inner.clone(), inner.clone()).prop_map(|(gap, n, x)| {
+                format!("sum (k{gap} in 1{gap}..{n},{gap}product(j in k..2 ,{x}))")
+            }),
+            1 => (gap.clone(), inner.clone(), inner.clone(), inner.clone()).prop_map(|(gap, n, x, y)| {
+                format!("iterate({n},{gap}z={x},w =1,{gap}({y}, z){gap} until{gap} z<{n}{gap})")
+            }),
+            1 => (gap.clone(), inner.clone(), inner.clone()).prop_map(|(gap, x, y)| {
+                format!("(p{gap} where p=({x},1),{gap}p . x ={gap}{y})")
+            }),
             1 => (gap, inner.clone(), inner.clone(), inner).prop_map(|(gap, x, a, b)| {
                 format!("({x}{gap} where{gap} a={a},{gap}b = {b})")
             }),

@@ -8,6 +8,7 @@ mod eval;
 mod failure;
 mod fmt;
 mod functions;
+mod json;
 mod overrides;
 mod progress;
 mod render;

@@ -3,6 +3,7 @@
 
 #[cfg(feature = "gpu")]
 pub mod accuracy;
+pub mod calculus;
 pub mod corpus;
 pub mod formatting;
 pub mod holds;

@@ -10,7 +10,7 @@ use super::library::LibraryFunction;
 use super::names::{listed, signature};
 use super::scope::Scope;
 use super::suggest::quoted;
-use super::{Builder, Source, Value, builtins, library};
+use super::{Builder, Source, Value, builtins, calculus, library};
 use crate::ir::{Prim, Ty};
 use crate::table;
 use crate::types::Type;
@@ -23,7 +23,14 @@ impl<'a> Builder<'a> {
         args: &'a [ExprId],
         span: Span,
     ) -> Value {
-        let user = self.user_function(&callee.text);
+        let name = callee.text.as_str();
+        let user = self.user_function(name);
+        if let Some(operator) = calculus::by_name(name).filter(|_| user.is_none()) {
+            return self.calculus(operator, args, span);
+        }
+        if primes > 0 {
+            return self.prime(callee, primes, args, span);
+        }
         let mut values: Vec<Value> = Vec::new();
         for (k, &arg) in args.iter().enumerate() {
             let formal = user.and_then(|function| function.params.get(k));
@@ -34,23 +41,23 @@ impl<'a> Builder<'a> {
                 self.expr(arg)
             });
         }
-        if primes > 0 {
-            return self.report(
-                Diagnostic::error(
-                    "not-yet",
-                    callee.span,
-                    "derivatives inside of a formula are not available in this version",
-                )
-                .with_hint("`pullback eval --what derivative` computes them"),
-            );
-        }
+        let spans: Vec<Span> = args.iter().map(|&a| self.span(a)).collect();
+        self.invoke(name, values, &spans, span)
+    }
+
+    /// Calls the function of this name, whatever it is; `spans` are the places of the arguments where they have any.
+    pub(super) fn invoke(
+        &mut self,
+        name: &'a str,
+        values: Vec<Value>,
+        spans: &[Span],
+        span: Span,
+    ) -> Value {
         if values.contains(&Value::Error) {
             return Value::Error;
         }
-        let name = callee.text.as_str();
-        if let Some(function) = user {
-            let spans: Vec<Span> = args.iter().map(|&a| self.span(a)).collect();
-            return self.call_function(function, values, &spans, span);
+        if let Some(function) = self.user_function(name) {
+            return self.call_function(function, values, spans, span);
         }
         if let Some(builtin) = builtins::by_name(name) {
             if !builtin.arity.contains(&values.len()) {

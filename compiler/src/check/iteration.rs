@@ -68,9 +68,12 @@ impl<'a> Builder<'a> {
         self.bounds.limits.insert(binder, limit);
         let depth = self.scope.len();
         self.name_value(&range.name.text, &running);
-        self.scope.push(&range.name.text, running);
-        let value = self.series(kind, inner, term);
+        let bound = self.bound();
+        let body = self.span(range.upper).join(self.span(term));
+        self.bind_running(&range.name.text, running, body);
+        let mut value = self.series(kind, inner, term);
         self.scope.truncate(depth);
+        self.release(bound, std::slice::from_mut(&mut value));
         let inside = self.nesting.leave(limit, before);
         match steps {
             Some(steps) => self.accumulate(kind, binder, steps, inside, (&value, term)),

@@ -7,6 +7,8 @@ use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+mod calculus;
+
 use super::scope::Scope;
 use super::suggest::{quoted, shortened};
 use super::symbols::reserved;
@@ -187,8 +189,21 @@ impl<'a, 'd> Walk<'a, 'd> {
                 self.expr(*first);
                 rest.iter().for_each(|(_, e)| self.expr(*e));
             }
-            Expr::Call { callee, args, .. } => {
-                self.callee(callee, args.len());
+            Expr::Call {
+                callee,
+                primes,
+                args,
+            } => {
+                if let Some(operator) = self.operator(callee)
+                    && !is_reserved_function(&callee.text)
+                {
+                    let span = exprs.span(id);
+                    self.calculus(operator, (callee, span), *primes, args);
+                    return;
+                }
+                if !self.primes(callee, *primes, args) {
+                    self.callee(callee, args.len());
+                }
                 let is_reserved = is_reserved_function(&callee.text)
                     && !self.symbols.functions.contains_key(callee.text.as_str());
                 if is_reserved {
@@ -223,7 +238,14 @@ impl<'a, 'd> Walk<'a, 'd> {
                 steps,
                 until,
             } => self.iteration(*count, states, steps, *until),
-            Expr::Integral { .. } => {}
+            Expr::Integral { body, range } => {
+                self.expr(range.lower);
+                self.expr(range.upper);
+                let depth = self.scope.len();
+                self.scope.push(&range.name.text, false);
+                self.expr(*body);
+                self.scope.truncate(depth);
+            }
         }
     }
 
@@ -398,7 +420,8 @@ impl<'a, 'd> Walk<'a, 'd> {
     fn usage(&self, name: &str) -> String {
         match self.symbols.functions.get(name) {
             Some(function) => signature(function),
-            None => format!("{name}(…)"),
+            None => super::calculus::by_name(name)
+                .map_or_else(|| format!("{name}(…)"), |o| o.usage.to_owned()),
         }
     }
 
@@ -427,9 +450,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                 )
                 .with_label("reserved for a later version")
                 .with_hint(match text {
-                    "sum" | "product" | "iterate" => "write the terms out",
                     "integral" => "write the integral in closed form",
-                    _ => "`pullback eval --what gradient` computes derivatives",
+                    _ => "write the terms out",
                 }),
             );
             return;
@@ -464,7 +486,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                     .iter()
                     .flat_map(|b| b.names.iter().copied()),
             )
-            .chain(library::library_functions().iter().map(|f| f.name))
+            .chain(library::library_functions().map(|f| f.name))
+            .chain(super::calculus::operators().iter().map(|o| o.name))
             .chain(self.symbols.functions.keys().copied());
         match nearest(text, known) {
             Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),
@@ -562,7 +585,8 @@ fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
         return Some((expected, listed(&[builtin.usage])));
     }
     let row = table::by_name(name);
-    let definitions = library::by_name(name).unwrap_or_default();
+    let definitions = library::by_name(name).filter(|_| !library::is_private(name));
+    let definitions = definitions.unwrap_or_default();
     let mut usages: Vec<&str> = definitions.iter().map(|f| f.usage.as_str()).collect();
     let mut arities: Vec<usize> = definitions.iter().map(|f| f.types.len()).collect();
     if let Some(row) = row {

@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::hides_builtin;
 use super::suggest::quoted;
+use super::variables::Differentiated;
 
 /// What each name at the top of a program stands for.
 #[derive(Debug, Default)]
@@ -16,6 +17,8 @@ pub struct Symbols<'a> {
     pub constants: FxHashMap<&'a str, &'a Constant>,
     /// Parameters with their index.
     pub params: FxHashMap<&'a str, (u16, &'a Param)>,
+    /// The calls that differentiate.
+    pub(super) differentiated: Differentiated,
 }
 
 /// Greatest number of `param` statements of a program.
@@ -24,7 +27,10 @@ pub const MAX_PARAMS: usize = 64;
 impl<'a> Symbols<'a> {
     /// Collects the definitions of a program, and reports names that are defined twice or may not be.
     pub fn collect(file: &'a File, diagnostics: &mut Vec<Diagnostic>) -> Self {
-        let mut symbols = Self::default();
+        let mut symbols = Self {
+            differentiated: Differentiated::of(file),
+            ..Self::default()
+        };
         let mut seen: FxHashMap<&str, Span> = FxHashMap::default();
         for item in &file.items {
             let name = match item {

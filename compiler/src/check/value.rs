@@ -46,4 +46,50 @@ impl Value {
             Self::Error => SmallVec::new(),
         }
     }
+
+    /// A value of the same form with other nodes in the place of [`Self::ids`].
+    #[must_use]
+    pub fn with_ids(&self, ids: &[Id]) -> Self {
+        match (self, ids) {
+            (Self::Scalar(_), &[id]) => Self::Scalar(id),
+            (Self::Vector(items), _) if items.len() == ids.len() => {
+                Self::Vector(SmallVec::from_slice(ids))
+            }
+            (Self::Record(record), _) => {
+                let value = record.value.as_ref();
+                value.map_or(Self::Error, |value| value.with_ids(ids))
+            }
+            _ => Self::Error,
+        }
+    }
+
+    /// Every IR node of the value, those of the members of a record included.
+    #[must_use]
+    pub fn every_id(&self) -> Vec<Id> {
+        let mut out = self.ids().to_vec();
+        if let Self::Record(record) = self {
+            for (_, member) in &record.members {
+                out.extend(member.every_id());
+            }
+        }
+        out
+    }
+
+    /// A value of the same form with other nodes, in the order of [`Self::every_id`].
+    #[must_use]
+    pub fn with_every_id(&self, ids: &mut impl Iterator<Item = Id>) -> Self {
+        match self {
+            Self::Scalar(_) => ids.next().map_or(Self::Error, Self::Scalar),
+            Self::Vector(items) => Self::Vector(ids.take(items.len()).collect()),
+            Self::Record(record) => Self::Record(Box::new(Record {
+                value: record.value.as_ref().map(|value| value.with_every_id(ids)),
+                members: record
+                    .members
+                    .iter()
+                    .map(|(name, member)| (name.clone(), member.with_every_id(ids)))
+                    .collect(),
+            })),
+            Self::Error => Self::Error,
+        }
+    }
 }

@@ -19,7 +19,8 @@ const WHERE: usize = 6;
 type Break = fn(&Piece<'_>) -> bool;
 
 /// Where an expression is taken apart, loosest first.
-const LEVELS: [Break; 8] = [
+const LEVELS: [Break; 9] = [
+    |piece| piece.kind == TokenKind::Until,
     |piece| piece.kind == TokenKind::In,
     |piece| piece.kind == TokenKind::Else,
     |piece| piece.kind == TokenKind::Then,
@@ -339,7 +340,7 @@ impl<'r, 'a> Iterator for Items<'r, 'a> {
         let end = self.rest.iter().enumerate().position(|(at, piece)| {
             match piece.kind {
                 TokenKind::Where => has_where = true,
-                TokenKind::Colon => has_where = false,
+                TokenKind::Colon | TokenKind::Until => has_where = false,
                 _ => {}
             }
             let behind = self.rest.get(at + 1..).unwrap_or_default();

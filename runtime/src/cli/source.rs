@@ -22,8 +22,6 @@ pub(super) struct Source {
     pub(super) stem: String,
     /// The meaning.
     pub(super) program: Program,
-    /// Warnings told so far.
-    pub(super) warnings: usize,
 }
 
 impl Source {
@@ -42,7 +40,6 @@ impl Source {
                 text,
                 stem,
                 program,
-                warnings: compilation.diagnostics.len(),
             }),
             _ => Err(Failure::Program),
         }
