@@ -6,9 +6,9 @@ use std::collections::HashMap;
 use std::mem::discriminant;
 
 use pullback_grammar::ast::Item;
-use pullback_grammar::{format, parse, print};
+use pullback_grammar::{format, parse, print, same_tree};
 use support::generate::{Random, program, with_comments};
-use support::{is_function, same_file};
+use support::is_function;
 
 const COUNT: u64 = 100_000;
 
@@ -33,7 +33,7 @@ fn programs_are_read_as_they_are_printed() {
             "{seed}:\n{printed}\n{:?}",
             parsed.diagnostics
         );
-        assert!(same_file(&file, &parsed.file), "{seed}:\n{printed}");
+        assert!(same_tree(&file, &parsed.file), "{seed}:\n{printed}");
         assert_eq!(print(&parsed.file), printed, "{seed}");
 
         let commented = with_comments(&printed, random);
@@ -41,7 +41,7 @@ fn programs_are_read_as_they_are_printed() {
         let formatted = formatted.unwrap_or_else(|| panic!("{seed}:\n{commented}"));
         let parsed = parse(&formatted, &is_function);
         assert!(
-            same_file(&file, &parsed.file),
+            same_tree(&file, &parsed.file),
             "{seed}:\n{printed}\n{commented}\n{formatted}"
         );
     }

@@ -11,7 +11,7 @@ use crate::ir::{Binder, Id, Loop, Prim, State, Ty};
 use crate::types::Type;
 
 /// Greatest number of times that the steps of an iteration are built, until the types of its states are settled.
-const MAX_ROUNDS: usize = 8;
+const MAX_ROUNDS: usize = 4;
 
 /// The parts of [`Expr::Iterate`].
 pub(super) struct Iteration<'a> {

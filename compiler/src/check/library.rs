@@ -1,7 +1,8 @@
 //! Functions of the language that are written in the language itself.
 //!
 //! A name may have several definitions, told apart by the number and the types of their arguments. A definition
-//! without annotations takes numbers, and vectors by components; one with annotations takes what they say.
+//! without annotations takes numbers, and vectors by components; one with annotations takes what they say. A name that
+//! begins with `_` is for the library alone.
 
 use std::sync::OnceLock;
 
@@ -37,6 +38,7 @@ const SOURCE: &str = concat!(
     include_str!("library/vector.pull"),
     include_str!("library/blending.pull"),
     include_str!("library/distance.pull"),
+    include_str!("library/noise.pull"),
 );
 
 /// Longest chain of definitions of the library that call each other.
@@ -53,8 +55,17 @@ fn parsed() -> Parsed {
     pullback_grammar::parse(SOURCE, &known)
 }
 
-/// Every definition of the library, in the order of its text.
-pub fn library_functions() -> &'static [LibraryFunction] {
+/// Every definition of the library that programs may use, in the order of its text.
+pub fn library_functions() -> impl Iterator<Item = &'static LibraryFunction> {
+    definitions().iter().filter(|f| !is_private(f.name))
+}
+
+/// Whether only the library itself may use a name.
+pub fn is_private(name: &str) -> bool {
+    name.starts_with('_')
+}
+
+fn definitions() -> &'static [LibraryFunction] {
     static FUNCTIONS: OnceLock<Vec<LibraryFunction>> = OnceLock::new();
     FUNCTIONS.get_or_init(|| {
         let mut functions = Vec::new();
@@ -88,7 +99,7 @@ pub fn by_name(name: &str) -> Option<&'static [&'static LibraryFunction]> {
     static INDEX: OnceLock<Index> = OnceLock::new();
     let index = INDEX.get_or_init(|| {
         let mut index = Index::default();
-        for function in library_functions() {
+        for function in definitions() {
             index.entry(function.name).or_default().push(function);
         }
         index
@@ -134,17 +145,16 @@ pub fn overload(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::{Symbols, check_names};
 
     #[test]
     fn the_library_is_well_formed() {
         assert_eq!(parsed().diagnostics, []);
-        let mut found = Vec::new();
-        check_names(file(), &Symbols::default(), &mut found);
-        assert_eq!(found, []);
-        for function in library_functions() {
+        for function in definitions() {
             let usage = &function.usage;
-            assert!(!function.doc.is_empty(), "{usage}");
+            assert!(
+                !function.doc.is_empty() || is_private(function.name),
+                "{usage}"
+            );
             let annotated = function.function.params.iter().filter(|p| p.ty.is_some());
             assert_eq!(annotated.count(), function.types.iter().flatten().count());
             let all = function.types.iter().all(Option::is_some);
@@ -154,7 +164,7 @@ mod tests {
 
     #[test]
     fn definitions_of_a_name_differ_in_what_they_take() {
-        for function in library_functions() {
+        for function in definitions() {
             let twins = by_name(function.name).unwrap_or_default();
             let same = twins.iter().filter(|f| f.types == function.types);
             assert_eq!(same.count(), 1, "{}", function.usage);

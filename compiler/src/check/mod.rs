@@ -34,7 +34,7 @@ use crate::table;
 /// Whether a name is a function of the language without being defined in the program.
 #[must_use]
 pub fn is_builtin_function(name: &str) -> bool {
-    hides_builtin(name) || library::by_name(name).is_some()
+    hides_builtin(name) || (library::by_name(name).is_some() && !library::is_private(name))
 }
 
 /// Whether a definition of this name hides what a reader takes to be fixed.

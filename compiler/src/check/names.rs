@@ -435,7 +435,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                     .iter()
                     .flat_map(|b| b.names.iter().copied()),
             )
-            .chain(library::library_functions().iter().map(|f| f.name))
+            .chain(library::library_functions().map(|f| f.name))
             .chain(super::calculus::operators().iter().map(|o| o.name))
             .chain(self.symbols.functions.keys().copied());
         match nearest(text, known) {
@@ -534,7 +534,8 @@ fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
         return Some((expected, listed(&[builtin.usage])));
     }
     let row = table::by_name(name);
-    let definitions = library::by_name(name).unwrap_or_default();
+    let definitions = library::by_name(name).filter(|_| !library::is_private(name));
+    let definitions = definitions.unwrap_or_default();
     let mut usages: Vec<&str> = definitions.iter().map(|f| f.usage.as_str()).collect();
     let mut arities: Vec<usize> = definitions.iter().map(|f| f.types.len()).collect();
     if let Some(row) = row {

@@ -119,7 +119,7 @@ impl Maker<'_> {
             let item = if self.random.once_in(2) {
                 self.param(name)
             } else {
-                let (name, value) = (self::name(name), self.expr(6));
+                let (name, value) = (self::name(name), self.expr(4));
                 let span = Span::default();
                 Item::Constant(Constant { name, value, span })
             };
@@ -153,7 +153,7 @@ impl Maker<'_> {
                 ty: (self.random.once_in(3)).then(|| self::name("vec3")),
             })
             .collect();
-        let size = self.random.below(11);
+        let size = self.random.below(8);
         let body = self.within(&formals, |maker| maker.expr(size));
         Item::Function(Function {
             name: self::name(name),
@@ -164,8 +164,8 @@ impl Maker<'_> {
     }
 
     fn param(&mut self, name: &str) -> Item {
-        let default = self.expr(3);
-        let range = (self.random.once_in(2)).then(|| (self.expr(3), self.expr(3)));
+        let default = self.expr(2);
+        let range = (self.random.once_in(2)).then(|| (self.expr(2), self.expr(2)));
         Item::Param(Param {
             name: self::name(name),
             default,
@@ -176,7 +176,7 @@ impl Maker<'_> {
 
     fn show(&mut self) -> Item {
         let args = (0..1 + self.random.below(2))
-            .map(|_| self.subject(6))
+            .map(|_| self.subject(4))
             .collect();
         let settings = (0..self.random.below(3))
             .map(|_| {

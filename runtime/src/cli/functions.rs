@@ -47,7 +47,7 @@ fn entries() -> Vec<Entry> {
         also: also(builtin.names),
         doc: builtin.doc.to_owned(),
     });
-    let library = check::library_functions().iter().map(|function| Entry {
+    let library = check::library_functions().map(|function| Entry {
         usage: function.usage.clone(),
         types: if function.is_generic() {
             "numbers, vectors by components"

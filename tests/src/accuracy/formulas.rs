@@ -90,6 +90,7 @@ const GALLERY: [(&str, &str, &str); 36] = gallery![
 const LIBRARY: &str = concat!(
     include_str!("../../data/functions/library.txt"),
     include_str!("../../data/functions/shapes.txt"),
+    include_str!("../../data/functions/noise.txt"),
 );
 
 /// The formulas of the gallery.
