@@ -142,7 +142,7 @@ impl Builder<'_> {
         }
         let hint = match missing.prim {
             Prim::Trigamma => {
-                "gamma, lgamma and digamma can be differentiated until trigamma comes up, which cannot".to_owned()
+                "available are gamma'', lgamma'' and digamma', and lower orders".to_owned()
             }
             _ => format!("write it without {name}"),
         };
