@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use pullback_compiler::check::{
-    MAX_CALL_DEPTH, MAX_DEPTH, MAX_LOOP_NESTING, MAX_PARAMS, MAX_STEPS,
+    MAX_CALL_DEPTH, MAX_DEPTH, MAX_LOOP_NESTING, MAX_ORDER, MAX_PARAMS, MAX_STEPS,
 };
 use pullback_compiler::formula::{Formula, Input};
 use pullback_compiler::ir::Graph;
@@ -174,6 +174,17 @@ fn loop_nesting() {
     });
 }
 
+#[test]
+fn derivative_order() {
+    bound(MAX_ORDER as usize, "too-many-derivatives", |order| {
+        format!("q(t) = t^9\nf(x, y) = q{}(x) + y", "'".repeat(order))
+    });
+    bound(MAX_ORDER as usize, "too-many-derivatives", |order| {
+        let variables: Vec<&str> = ["x", "y"].into_iter().cycle().take(order).collect();
+        format!("f(x, y) = diff(x^9 y^9, {})", variables.join(", "))
+    });
+}
+
 /// The first of so many arguments.
 fn first_of(count: usize) -> Formula {
     let mut graph = Graph::new();
@@ -242,6 +253,11 @@ fn the_page_lists_every_bound() {
         ("operations", Graph::MAX_NODES, "too-large"),
         ("steps", MAX_STEPS as usize, "too-many-steps"),
         ("loop_nesting", MAX_LOOP_NESTING, "too-deep"),
+        (
+            "derivative_order",
+            MAX_ORDER as usize,
+            "too-many-derivatives",
+        ),
         ("params", MAX_PARAMS, "too-many-params"),
         ("shows", MAX_SHOWS, "too-many-shows"),
         ("components", 4, "long-vector"),

@@ -20,6 +20,7 @@ mod variables;
 
 pub use builder::{Builder, MAX_DEPTH, Source};
 pub use builtins::{Builtin, builtins};
+pub use calculus::MAX_ORDER;
 pub use calculus::{Operator, operators};
 pub use library::{LibraryFunction, library_functions};
 pub use names::{MAX_CALL_DEPTH, check_names, free_variables, not_constant, signature};
