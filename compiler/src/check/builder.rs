@@ -128,9 +128,8 @@ impl<'a> Builder<'a> {
 
     /// The program's constants that have been used without an error, with their types.
     pub fn constant_types(&self) -> impl Iterator<Item = (&'a str, Type)> + '_ {
-        let typed = |(name, known): (&&'a str, &(Value, usize))| {
-            Some((*name, known.0.ty(&self.graph)?))
-        };
+        let typed =
+            |(name, known): (&&'a str, &(Value, usize))| Some((*name, known.0.ty(&self.graph)?));
         self.constants.iter().filter_map(typed)
     }
 
