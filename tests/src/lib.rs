@@ -7,5 +7,6 @@ pub mod calculus;
 pub mod corpus;
 pub mod formatting;
 pub mod holds;
+pub mod loops;
 pub mod mutate;
 pub mod units;

@@ -53,7 +53,7 @@ pub struct Builder<'a> {
     pub(super) folding: FoldBudget,
     pub(super) frame: Frame<'a>,
     /// Derivatives of functions at values, by their order.
-    pub(super) derivatives: FxHashMap<(Source, &'a str, u32, Value), Value>,
+    pub(super) derivatives: FxHashMap<(Source, &'a str, u32, Value), Known>,
     /// Number of nodes that the passes which take derivatives have visited.
     pub(super) visits: usize,
     program: &'a File,

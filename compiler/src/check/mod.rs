@@ -18,11 +18,12 @@ mod symbols;
 mod value;
 mod variables;
 
-pub use builder::{Builder, Source};
+pub use builder::{Builder, MAX_DEPTH, Source};
 pub use builtins::{Builtin, builtins};
+pub use calculus::MAX_ORDER;
 pub use calculus::{Operator, operators};
 pub use library::{LibraryFunction, library_functions};
-pub use names::{check_names, free_variables, not_constant, signature};
+pub use names::{MAX_CALL_DEPTH, check_names, free_variables, not_constant, signature};
 pub use nesting::{MAX_LOOP_NESTING, MAX_STEPS};
 pub use record::Record;
 pub use suggest::{nearest, quoted, shortened};
@@ -42,13 +43,7 @@ fn hides_builtin(name: &str) -> bool {
     table::by_name(name).is_some()
         || builtins::by_name(name).is_some()
         || calculus::by_name(name).is_some()
-        || is_reserved_function(name)
-}
-
-/// Names of functions that the language reserves and does not have yet.
-#[must_use]
-pub fn is_reserved_function(name: &str) -> bool {
-    matches!(name, "sum" | "product" | "iterate" | "integral")
+        || matches!(name, "sum" | "product" | "iterate")
 }
 
 /// The value of a named constant of the language.

@@ -12,10 +12,7 @@ mod calculus;
 use super::scope::Scope;
 use super::suggest::{quoted, shortened};
 use super::symbols::reserved;
-use super::{
-    Symbols, builtins, is_builtin_function, is_builtin_value, is_reserved_function, library,
-    nearest,
-};
+use super::{Symbols, builtins, is_builtin_function, is_builtin_value, library, nearest};
 use crate::table;
 
 /// Longest chain of functions that call each other.
@@ -194,9 +191,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 primes,
                 args,
             } => {
-                if let Some(operator) = self.operator(callee)
-                    && !is_reserved_function(&callee.text)
-                {
+                if let Some(operator) = self.operator(callee) {
                     let span = exprs.span(id);
                     self.calculus(operator, (callee, span), *primes, args);
                     return;
@@ -204,13 +199,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 if !self.primes(callee, *primes, args) {
                     self.callee(callee, args.len());
                 }
-                let is_reserved = is_reserved_function(&callee.text)
-                    && !self.symbols.functions.contains_key(callee.text.as_str());
-                if is_reserved {
-                    self.reserved_arguments(args);
-                } else {
-                    args.iter().for_each(|a| self.expr(*a));
-                }
+                args.iter().for_each(|a| self.expr(*a));
             }
             Expr::Member { base, .. } => self.expr(*base),
             Expr::Vector(items) => items.iter().for_each(|e| self.expr(*e)),
@@ -238,33 +227,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                 steps,
                 until,
             } => self.iteration(*count, states, steps, *until),
-            Expr::Integral { body, range } => {
-                self.expr(range.lower);
-                self.expr(range.upper);
-                let depth = self.scope.len();
-                self.scope.push(&range.name.text, false);
-                self.expr(*body);
-                self.scope.truncate(depth);
-            }
+            Expr::Integral { body, range } => self.integral(*body, range),
         }
-    }
-
-    /// Arguments of a function that is not there yet: the bare name of a function stands for the function, and any
-    /// other bare name behind the first argument for the variable in it.
-    fn reserved_arguments(&mut self, args: &'a [ExprId]) {
-        let depth = self.scope.len();
-        for &arg in args.iter().skip(1) {
-            if let Expr::Name(name) = &self.exprs[arg] {
-                self.scope.push(&name.text, false);
-            }
-        }
-        for &arg in args {
-            let is_function = |n: &Name| self.symbols.functions.contains_key(n.text.as_str());
-            if !matches!(&self.exprs[arg], Expr::Name(n) if is_function(n)) {
-                self.expr(arg);
-            }
-        }
-        self.scope.truncate(depth);
     }
 
     fn is_value(&self, name: &str) -> bool {
@@ -439,21 +403,6 @@ impl<'a, 'd> Walk<'a, 'd> {
                 .with_related(function.name.span, "defined here");
                 self.diagnostics.push(problem);
             }
-            return;
-        }
-        if is_reserved_function(text) {
-            self.diagnostics.push(
-                Diagnostic::error(
-                    "not-yet",
-                    callee.span,
-                    format!("`{text}` is not available in this version"),
-                )
-                .with_label("reserved for a later version")
-                .with_hint(match text {
-                    "integral" => "write the integral in closed form",
-                    _ => "write the terms out",
-                }),
-            );
             return;
         }
         if let Some((expected, usage)) = builtin_arity(text, given) {

@@ -18,6 +18,9 @@ pub struct Record {
     pub members: Vec<(String, Value)>,
 }
 
+type Items = SmallVec<[Id; 4]>;
+type Places = SmallVec<[usize; 4]>;
+
 impl Record {
     fn member(&self, name: &str) -> Option<&Value> {
         let mut named = self.members.iter().filter(|member| member.0 == name);
@@ -90,9 +93,7 @@ impl<'a> Builder<'a> {
 
     /// Components of a vector.
     fn swizzle(&mut self, value: &Value, field: &Name) -> Value {
-        let (Some(items), Some(places)) =
-            (self.components(value, field), self.places(value, field))
-        else {
+        let Some((items, places)) = self.components(value, field) else {
             return Value::Error;
         };
         let ids: SmallVec<[Id; 4]> = places.iter().map(|&k| items[k]).collect();
@@ -102,9 +103,11 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn components(&mut self, value: &Value, field: &Name) -> Option<SmallVec<[Id; 4]>> {
+    /// The components of a vector, and which of them the letters of a swizzle mean.
+    fn components(&mut self, value: &Value, field: &Name) -> Option<(Items, Places)> {
         if let Value::Vector(items) = value {
-            return Some(items.clone());
+            let places = self.places(items.len(), field)?;
+            return Some((items.clone(), places));
         }
         let ty = value.ty(&self.graph)?;
         let problem = Diagnostic::error(
@@ -120,13 +123,11 @@ impl<'a> Builder<'a> {
         None
     }
 
-    /// Which components of a vector the letters of a swizzle mean, one to four.
-    fn places(&mut self, value: &Value, field: &Name) -> Option<SmallVec<[usize; 4]>> {
-        let size = value.ids().len();
-        let mut places = SmallVec::new();
+    /// One to four components of a vector of this size.
+    fn places(&mut self, size: usize, field: &Name) -> Option<Places> {
+        let mut places = Places::new();
         for letter in field.text.chars() {
-            let index = "xyzw".find(letter).or_else(|| "rgba".find(letter));
-            match index.filter(|&k| k < size) {
+            match place(letter).filter(|&k| k < size) {
                 Some(k) => places.push(k),
                 None => {
                     self.bad_swizzle(field, letter, size);
@@ -167,21 +168,13 @@ impl<'a> Builder<'a> {
             other => other,
         };
         let new = self.expr(local.value);
-        let (Some(mut items), Some(places)) =
-            (self.components(&old, field), self.places(&old, field))
-        else {
+        if !is_update(field) {
+            // reported by the parser
+            return Value::Error;
+        }
+        let Some((mut items, places)) = self.components(&old, field) else {
             return Value::Error;
         };
-        let mut letters = field.text.chars();
-        let is_repeated = |k: &usize| places.iter().filter(|place| *place == k).count() > 1;
-        if let Some(at) = places.iter().position(is_repeated) {
-            let letter = letters.nth(at).unwrap_or('x');
-            let message = format!("the component `{letter}` is replaced twice");
-            return self.report(
-                Diagnostic::error("bad-swizzle", field.span, message)
-                    .with_hint("name each component once"),
-            );
-        }
         let Some(found) = new.ty(&self.graph) else {
             return Value::Error;
         };
@@ -213,4 +206,16 @@ impl<'a> Builder<'a> {
         }
         Value::Vector(items)
     }
+}
+
+/// Which component a letter names.
+fn place(letter: char) -> Option<usize> {
+    "xyzw".find(letter).or_else(|| "rgba".find(letter))
+}
+
+/// Whether the letters name components to replace, each once.
+fn is_update(field: &Name) -> bool {
+    let mut seen = [false; 4];
+    let mut is_new = |letter| place(letter).is_some_and(|k| !std::mem::replace(&mut seen[k], true));
+    field.text.chars().all(&mut is_new)
 }

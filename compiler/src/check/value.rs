@@ -47,7 +47,36 @@ impl Value {
         }
     }
 
-    /// A value of the same form with other nodes in the place of [`Self::ids`].
+    /// The IR nodes of the value, those of a record's members included.
+    #[must_use]
+    pub fn all_ids(&self) -> SmallVec<[Id; 4]> {
+        let Self::Record(record) = self else {
+            return self.ids();
+        };
+        let members = record.members.iter().map(|member| &member.1);
+        let values = record.value.iter().chain(members);
+        values.flat_map(Self::all_ids).collect()
+    }
+
+    /// A value of the same form whose nodes are others: `new` gives them in the order of [`Self::all_ids`].
+    #[must_use]
+    pub fn map(&self, new: &mut impl FnMut(Id) -> Id) -> Self {
+        match self {
+            Self::Scalar(id) => Self::Scalar(new(*id)),
+            Self::Vector(items) => Self::Vector(items.iter().map(|&id| new(id)).collect()),
+            Self::Record(record) => {
+                let value = record.value.as_ref().map(|value| value.map(new));
+                let members = record.members.iter();
+                let members = members
+                    .map(|(name, member)| (name.clone(), member.map(new)))
+                    .collect();
+                Self::Record(Box::new(Record { value, members }))
+            }
+            Self::Error => Self::Error,
+        }
+    }
+
+    /// A number or vector of the same form with other nodes.
     #[must_use]
     pub fn with_ids(&self, ids: &[Id]) -> Self {
         match (self, ids) {
@@ -60,36 +89,6 @@ impl Value {
                 value.map_or(Self::Error, |value| value.with_ids(ids))
             }
             _ => Self::Error,
-        }
-    }
-
-    /// Every IR node of the value, those of the members of a record included.
-    #[must_use]
-    pub fn every_id(&self) -> Vec<Id> {
-        let mut out = self.ids().to_vec();
-        if let Self::Record(record) = self {
-            for (_, member) in &record.members {
-                out.extend(member.every_id());
-            }
-        }
-        out
-    }
-
-    /// A value of the same form with other nodes, in the order of [`Self::every_id`].
-    #[must_use]
-    pub fn with_every_id(&self, ids: &mut impl Iterator<Item = Id>) -> Self {
-        match self {
-            Self::Scalar(_) => ids.next().map_or(Self::Error, Self::Scalar),
-            Self::Vector(items) => Self::Vector(ids.take(items.len()).collect()),
-            Self::Record(record) => Self::Record(Box::new(Record {
-                value: record.value.as_ref().map(|value| value.with_every_id(ids)),
-                members: record
-                    .members
-                    .iter()
-                    .map(|(name, member)| (name.clone(), member.with_every_id(ids)))
-                    .collect(),
-            })),
-            Self::Error => Self::Error,
         }
     }
 }

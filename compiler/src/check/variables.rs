@@ -112,22 +112,29 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Leaves for each node of a value, or `None` where it is no number.
+    /// Leaves in the place of the numbers of a value, or `None` where it has none.
     pub(super) fn leaves_like(&mut self, value: &Value) -> Option<Value> {
-        match value {
-            Value::Scalar(id) if matches!(self.graph.ty(*id), Ty::Real | Ty::Complex) => {
-                let ty = self.graph.ty(*id);
-                Some(Value::Scalar(self.graph.new_variable(ty)))
+        let mut leaves: SmallVec<[(Id, Id); 4]> = SmallVec::new();
+        for id in value.all_ids() {
+            let ty = self.graph.ty(id);
+            let is_number = matches!(ty, Ty::Real | Ty::Complex);
+            // a record has a number twice; a vector may have one in two components, which vary apart
+            let is_twin = matches!(value, Value::Record(_)) && leaves.iter().any(|l| l.0 == id);
+            if is_number && !is_twin {
+                let leaf = self.graph.new_variable(ty);
+                self.bounds.variables.insert(leaf, id);
+                leaves.push((id, leaf));
             }
-            Value::Vector(items) => {
-                let leaf = |&id: &Id| {
-                    let ty = self.graph.ty(id);
-                    self.graph.new_variable(ty)
-                };
-                Some(Value::Vector(items.iter().map(leaf).collect()))
-            }
-            _ => None,
         }
+        if leaves.is_empty() {
+            return None;
+        }
+        if !matches!(value, Value::Record(_)) {
+            let mut new = leaves.iter().map(|l| l.1);
+            return Some(value.map(&mut |id| new.next().unwrap_or(id)));
+        }
+        let leaf_of = |id: Id| leaves.iter().find(|l| l.0 == id).map_or(id, |l| l.1);
+        Some(value.map(&mut |id| leaf_of(id)))
     }
 
     /// Binds a name of the current scope to a value, or to leaves where something in `place` differentiates by it.
@@ -183,8 +190,8 @@ impl<'a> Builder<'a> {
         if pairs.is_empty() {
             return value.clone();
         }
-        let ids = self.graph.replace(&value.every_id(), pairs);
-        value.with_every_id(&mut ids.into_iter())
+        let mut new = self.graph.replace(&value.all_ids(), pairs).into_iter();
+        value.map(&mut |id| new.next().unwrap_or(id))
     }
 
     /// The frame of a definition whose parameters are in `scope`; binds those to leaves that its body differentiates
@@ -255,7 +262,12 @@ impl<'a> Builder<'a> {
         for (at, name) in names.iter().enumerate() {
             leaves.push(self.leaves_of(name).ok_or(at)?);
         }
-        Ok((self.varying(value, &leaves), leaves))
+        let value = self.varying(value, &leaves);
+        let numbers = leaves.into_iter().enumerate().map(|(at, held)| match held {
+            Value::Record(record) => record.value.ok_or(at),
+            number => Ok(number),
+        });
+        Ok((value, numbers.collect::<Result<_, _>>()?))
     }
 
     /// [`Self::opened`] by the parameters of the definition.
@@ -281,7 +293,8 @@ impl<'a> Builder<'a> {
         self.replaced(value, &pairs)
     }
 
-    /// The leaves that a name stands for: those of a variable, an input, a state, a `param`, the clock.
+    /// The leaves that a name stands for: those of a variable, an input, a state, a `param`, the clock. A record of
+    /// leaves is given as such.
     fn leaves_of(&mut self, name: &str) -> Option<Value> {
         if let Some(value) = self.scope.get(name) {
             let is_leaf = |&id: &Id| {
@@ -290,7 +303,7 @@ impl<'a> Builder<'a> {
                     Op::Input(_) | Op::State(..) | Op::Counter(_) | Op::Variable(_)
                 )
             };
-            let ids = value.ids();
+            let ids = value.all_ids();
             return (!ids.is_empty() && ids.iter().all(is_leaf)).then(|| value.clone());
         }
         let op = match name {
@@ -304,6 +317,7 @@ impl<'a> Builder<'a> {
 }
 
 fn pairs(variable: &Variable) -> SmallVec<[(Id, Id); 4]> {
-    let (leaves, values) = (variable.leaves.ids(), variable.value.ids());
-    leaves.into_iter().zip(values).collect()
+    let (leaves, values) = (variable.leaves.all_ids(), variable.value.all_ids());
+    let pairs = leaves.into_iter().zip(values);
+    pairs.filter(|(leaf, value)| leaf != value).collect()
 }

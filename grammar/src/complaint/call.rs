@@ -39,6 +39,9 @@ impl Parser<'_> {
 
     #[cold]
     pub(crate) fn complain_not_called(&mut self, callee: &Name, primes: u32) {
+        if self.is_hushed() {
+            return;
+        }
         let marks = "'".repeat(primes.min(4) as usize);
         let name = format!("{}{marks}", shorten(&callee.text));
         let argument = match self.kind() {
@@ -81,7 +84,7 @@ impl Parser<'_> {
             "product"
         };
         let message = format!("`{}` is no name of a {name}", callee.text);
-        self.diagnostics.push(
+        self.report(
             Diagnostic::error("foreign-name", callee.span, message)
                 .with_label("a name like any other")
                 .with_hint(format!("write `{name}({})`", meant.example())),

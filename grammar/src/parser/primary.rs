@@ -39,7 +39,7 @@ impl Parser<'_> {
         let is_adjacent = name.span.end == self.span().start;
         let primes = self.primes();
         let opens = self.at(TokenKind::LParen);
-        match self.scope.role(&name.text) {
+        match self.role_of(&name) {
             Role::Function if self.at(TokenKind::Bar) && self.form_of(&name).is_none() => {
                 self.barred(name, primes)
             }

@@ -5,7 +5,7 @@
 pub mod fixture;
 pub mod generate;
 
-use pullback_grammar::ast::{Expr, ExprId, File, Item, Local, Name, Range};
+use pullback_grammar::ast::{Expr, ExprId, File, Item, Name, Range};
 use pullback_grammar::{Parsed, Span, parse};
 
 /// Builtin functions, as far as these tests need them.
@@ -276,127 +276,5 @@ pub fn check_structure(text: &str, parsed: &Parsed) {
                 .chars()
                 .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')
         );
-    }
-}
-
-/// Whether two files are the same, spans aside.
-pub fn same_file(a: &File, b: &File) -> bool {
-    let both = |x: ExprId, y: ExprId| same(a, x, b, y);
-    let maybe = |x: Option<ExprId>, y: Option<ExprId>| match (x, y) {
-        (Some(x), Some(y)) => both(x, y),
-        (x, y) => x.is_none() && y.is_none(),
-    };
-    let text = |name: &Option<Name>| name.as_ref().map(|name| name.text.clone());
-    a.items.len() == b.items.len()
-        && a.items.iter().zip(&b.items).all(|items| match items {
-            (Item::Function(x), Item::Function(y)) => {
-                x.name.text == y.name.text
-                    && x.params.len() == y.params.len()
-                    && x.params
-                        .iter()
-                        .zip(&y.params)
-                        .all(|(p, q)| p.name.text == q.name.text && text(&p.ty) == text(&q.ty))
-                    && both(x.body, y.body)
-            }
-            (Item::Constant(x), Item::Constant(y)) => {
-                x.name.text == y.name.text && both(x.value, y.value)
-            }
-            (Item::Param(x), Item::Param(y)) => {
-                x.name.text == y.name.text
-                    && both(x.default, y.default)
-                    && maybe(x.range.map(|r| r.0), y.range.map(|r| r.0))
-                    && maybe(x.range.map(|r| r.1), y.range.map(|r| r.1))
-            }
-            (Item::Show(x), Item::Show(y)) => {
-                x.scene.text == y.scene.text
-                    && x.args.len() == y.args.len()
-                    && x.args.iter().zip(&y.args).all(|(&p, &q)| both(p, q))
-                    && x.settings.len() == y.settings.len()
-                    && x.settings.iter().zip(&y.settings).all(|(p, q)| {
-                        p.name.text == q.name.text
-                            && both(p.value, q.value)
-                            && maybe(p.upper, q.upper)
-                    })
-            }
-            (Item::Formula(x), Item::Formula(y)) => both(x.body, y.body),
-            _ => false,
-        })
-}
-
-/// Whether two expressions are the same, spans aside.
-fn same(a: &File, x: ExprId, b: &File, y: ExprId) -> bool {
-    let (left, right) = (&a.exprs[x], &b.exprs[y]);
-    let (mut lefts, mut rights) = (Vec::new(), Vec::new());
-    left.for_each_child(|child| lefts.push(child));
-    right.for_each_child(|child| rights.push(child));
-    own_parts_agree(left, right)
-        && lefts.len() == rights.len()
-        && lefts.iter().zip(&rights).all(|(&p, &q)| same(a, p, b, q))
-}
-
-/// Whether two nodes agree in all but their operands.
-fn own_parts_agree(left: &Expr, right: &Expr) -> bool {
-    let ranges = |p: &Range, q: &Range| p.name.text == q.name.text;
-    match (left, right) {
-        (Expr::Number(x), Expr::Number(y)) | (Expr::Imaginary(x), Expr::Imaginary(y)) => {
-            x.to_bits() == y.to_bits()
-        }
-        (Expr::Name(x), Expr::Name(y)) => x.text == y.text,
-        (Expr::Unary { op: x, .. }, Expr::Unary { op: y, .. }) => x == y,
-        (Expr::Binary { op: x, .. }, Expr::Binary { op: y, .. }) => x == y,
-        (Expr::Compare { rest: x, .. }, Expr::Compare { rest: y, .. }) => {
-            x.iter().map(|step| step.0).eq(y.iter().map(|step| step.0))
-        }
-        (
-            Expr::Call {
-                callee: x,
-                primes: p,
-                ..
-            },
-            Expr::Call {
-                callee: y,
-                primes: q,
-                ..
-            },
-        ) => x.text == y.text && p == q,
-        (Expr::Member { field: x, .. }, Expr::Member { field: y, .. }) => x.text == y.text,
-        (Expr::Piecewise { otherwise: x, .. }, Expr::Piecewise { otherwise: y, .. }) => {
-            x.is_some() == y.is_some()
-        }
-        (Expr::Where { locals: x, .. }, Expr::Where { locals: y, .. }) => {
-            x.len() == y.len()
-                && x.iter().zip(y).all(|(p, q)| {
-                    let field = |local: &Local| local.field.as_ref().map(|f| f.text.clone());
-                    p.name.text == q.name.text && field(p) == field(q)
-                })
-        }
-        (
-            Expr::Series {
-                kind: x, ranges: p, ..
-            },
-            Expr::Series {
-                kind: y, ranges: q, ..
-            },
-        ) => x == y && p.len() == q.len() && p.iter().zip(q).all(|(p, q)| ranges(p, q)),
-        (
-            Expr::Iterate {
-                states: x,
-                until: p,
-                ..
-            },
-            Expr::Iterate {
-                states: y,
-                until: q,
-                ..
-            },
-        ) => {
-            p.is_some() == q.is_some()
-                && x.iter()
-                    .map(|state| &state.0.text)
-                    .eq(y.iter().map(|state| &state.0.text))
-        }
-        (Expr::Integral { range: x, .. }, Expr::Integral { range: y, .. }) => ranges(x, y),
-        (Expr::Vector(_), Expr::Vector(_)) | (Expr::If { .. }, Expr::If { .. }) => true,
-        _ => false,
     }
 }

@@ -47,20 +47,16 @@ pub fn point_and_order(exprs: &Exprs, rest: &[ExprId]) -> (Vec<ExprId>, u32) {
     }
 }
 
-/// Number of parameters of a function, where it is fixed.
-pub fn parameters_of(function: Option<&Function>, name: &str) -> Option<usize> {
+/// The numbers of arguments that a function takes; none where it is not known.
+pub fn arities_of(function: Option<&Function>, name: &str) -> Vec<usize> {
     if let Some(function) = function {
-        return Some(function.params.len());
-    }
-    if let Some(row) = table::by_name(name) {
-        return Some(row.typing.arity());
+        return vec![function.params.len()];
     }
     if let Some(builtin) = builtins::by_name(name) {
-        let (lo, hi) = (*builtin.arity.start(), *builtin.arity.end());
-        return (lo == hi).then_some(lo);
+        return builtin.arity.clone().collect();
     }
-    let overloads = library::by_name(name)?;
-    let mut counts = overloads.iter().map(|f| f.function.params.len());
-    let first = counts.next()?;
-    counts.all(|count| count == first).then_some(first)
+    let definitions = library::by_name(name).unwrap_or_default();
+    let row = table::by_name(name).map(|row| row.typing.arity());
+    let of_library = definitions.iter().map(|f| f.types.len());
+    of_library.chain(row).collect()
 }

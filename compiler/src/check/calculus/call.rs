@@ -94,11 +94,9 @@ impl<'a> Builder<'a> {
     /// `diff(f, x)`: of a function of one number at x, else of f at the parameters around by its parameter x.
     fn diff_function(&mut self, name: &'a Name, rest: &'a [ExprId], span: Span) -> Value {
         let file = self.file;
-        let parameters = arguments::parameters_of(self.user_function(&name.text), &name.text);
+        let of_one = arguments::arities_of(self.user_function(&name.text), &name.text).contains(&1);
         let (points, order) = arguments::point_and_order(&file.exprs, rest);
-        if parameters == Some(1)
-            && let [point] = points.as_slice()
-        {
+        if of_one && let [point] = points.as_slice() {
             let at = self.expr(*point);
             let at_span = self.span(*point);
             return self.derivative_at(name, order, &at, at_span, span);
@@ -107,6 +105,7 @@ impl<'a> Builder<'a> {
             return Value::Error;
         };
         let value = self.invoke(&name.text, values, &[], span);
+        let value = self.as_number(value, span);
         let text = self.user_function(&name.text).map(|f| f.body);
         self.diff(&value, rest, Subject { span, text })
     }
@@ -164,6 +163,7 @@ impl<'a> Builder<'a> {
             }
         }
         let value = self.invoke(&name.text, leaves.clone(), &spans, span);
+        let value = self.as_number(value, span);
         if value == Value::Error {
             return Value::Error;
         }

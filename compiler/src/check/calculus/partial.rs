@@ -31,6 +31,21 @@ impl Subject {
 }
 
 impl Builder<'_> {
+    /// The value of a function as a number or vector; reports a record of several states.
+    pub(super) fn as_number(&mut self, value: Value, span: Span) -> Value {
+        let Value::Record(record) = value else {
+            return value;
+        };
+        match record.value {
+            Some(value) => value,
+            None => self.report(
+                Diagnostic::error("record-as-number", span, "this function has several values")
+                    .with_label("of which one is differentiated?")
+                    .with_hint("name one of them in a function: g(x) = f(x).z"),
+            ),
+        }
+    }
+
     /// ∂value/∂leaf: of a complex leaf the complex derivative. `None` where there is none; that has been reported.
     pub(super) fn partial(&mut self, value: &Value, leaf: Id, subject: Subject) -> Option<Value> {
         self.charge(subject)?;
@@ -93,9 +108,9 @@ impl Builder<'_> {
         }
     }
 
-    /// Counts the nodes that a pass visits; `None` beyond the bound, which is reported once.
+    /// Counts the nodes that a pass visits; `None` beyond the bound, which is reported.
     pub(super) fn charge(&mut self, subject: Subject) -> Option<()> {
-        if self.graph.budget().is_err() || self.visits > MAX_VISITS {
+        if self.graph.budget().is_err() {
             return None;
         }
         self.visits += self.graph.nodes().len();
@@ -127,7 +142,7 @@ impl Builder<'_> {
         }
         let hint = match missing.prim {
             Prim::Trigamma => {
-                "gamma, lgamma and digamma can be differentiated until trigamma comes up, which cannot".to_owned()
+                "available are gamma'', lgamma'' and digamma', and lower orders".to_owned()
             }
             _ => format!("write it without {name}"),
         };

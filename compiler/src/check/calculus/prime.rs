@@ -4,6 +4,7 @@ use pullback_grammar::ast::{ExprId, Function, Name};
 use pullback_grammar::{Diagnostic, Span};
 
 use super::partial::Subject;
+use crate::check::builder::Known;
 use crate::check::suggest::quoted;
 use crate::check::{Builder, Value};
 use crate::types::Type;
@@ -11,33 +12,37 @@ use crate::types::Type;
 /// Greatest order of a derivative that is written at once.
 pub const MAX_ORDER: u32 = 4;
 
-/// What is wrong with the primes of a call, as its text shows it: `parameters` are those of the function where that
-/// is known, `args` the arguments as text.
+/// What is wrong with the primes of a call, as its text shows it: `arities` are the numbers of arguments that the
+/// function takes, `args` the arguments as text.
 pub fn primes_misused(
     callee: &Name,
     primes: u32,
-    parameters: Option<usize>,
+    arities: &[usize],
     args: &[String],
     variable: &str,
 ) -> Option<Diagnostic> {
-    if parameters.unwrap_or(args.len()) != 1 {
-        let name = &callee.text;
-        let message = format!(
-            "{} is a function of {} variables: a prime does not say which one is meant",
-            quoted(name),
-            parameters.unwrap_or(args.len())
-        );
-        let order = if primes > 1 {
-            format!(", {primes}")
-        } else {
-            String::new()
-        };
-        let problem = Diagnostic::error("prime-needs-one-variable", callee.span, message)
-            .with_label("not of one variable");
-        let call = crate::check::shortened(&format!("{name}({})", args.join(", ")));
-        return Some(problem.with_hint(format!("write diff({call}, {variable}{order})")));
+    if arities.contains(&1) {
+        // a wrong number of arguments is reported as such
+        return too_high(callee.span, primes);
     }
-    too_high(callee.span, primes)
+    let name = &callee.text;
+    let count = arities.first().copied().unwrap_or(args.len());
+    let message = format!(
+        "{} is a function of {count} variables: a prime does not say which one is meant",
+        quoted(name)
+    );
+    let order = if primes > 1 {
+        format!(", {primes}")
+    } else {
+        String::new()
+    };
+    let call = crate::check::shortened(&format!("{name}({})", args.join(", ")));
+    let problem = Diagnostic::error("prime-needs-one-variable", callee.span, message);
+    Some(
+        problem
+            .with_label("not of one variable")
+            .with_hint(format!("write diff({call}, {variable}{order})")),
+    )
 }
 
 /// The error for derivatives of too high an order.
@@ -80,18 +85,44 @@ impl<'a> Builder<'a> {
         span: Span,
     ) -> Value {
         let function = self.user_function(&callee.text);
-        let Some(at) = self.argument(callee, function, at, at_span) else {
+        let Some(at) = self.argument_of(callee, function, at, at_span) else {
             return Value::Error;
         };
         let name = callee.text.as_str();
         let key = (self.source, name, order, at.clone());
         if let Some(known) = self.derivatives.get(&key) {
-            return known.clone();
+            let known = known.clone();
+            let fits = self.reuse(known.loops, span);
+            return if fits { known.value } else { Value::Error };
         }
-        let Some(leaf) = self.leaves_like(&at) else {
+        let around = self.nesting.apart();
+        let value = self.derive_at(callee, order, &at, at_span, span);
+        let loops = self.nesting.join(around);
+        if value != Value::Error {
+            let known = Known {
+                value: value.clone(),
+                loops,
+                place: 0,
+            };
+            self.derivatives.insert(key, known);
+        }
+        value
+    }
+
+    fn derive_at(
+        &mut self,
+        callee: &'a Name,
+        order: u32,
+        at: &Value,
+        at_span: Span,
+        span: Span,
+    ) -> Value {
+        let function = self.user_function(&callee.text);
+        let Some(leaf) = self.leaves_like(at) else {
             return Value::Error;
         };
-        let mut value = self.invoke(name, vec![leaf.clone()], &[at_span], span);
+        let value = self.invoke(&callee.text, vec![leaf.clone()], &[at_span], span);
+        let mut value = self.as_number(value, span);
         let subject = Subject {
             span,
             text: function.map(|f| f.body),
@@ -103,13 +134,11 @@ impl<'a> Builder<'a> {
                 None => return Value::Error,
             };
         }
-        let value = self.replaced(&value, &[(from[0], to[0])]);
-        self.derivatives.insert(key, value.clone());
-        value
+        self.replaced(&value, &[(from[0], to[0])])
     }
 
     /// The argument as the number that the function takes.
-    fn argument(
+    fn argument_of(
         &mut self,
         callee: &Name,
         function: Option<&Function>,

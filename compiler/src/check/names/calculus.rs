@@ -4,12 +4,11 @@ use pullback_grammar::ast::{Expr, ExprId, Name};
 use pullback_grammar::{Diagnostic, Span, print_expr};
 
 use super::super::calculus::{
-    self, Kind, MAX_ORDER, Operator, order, parameters_of, point_and_order, primes_misused,
-    too_high,
+    self, Kind, MAX_ORDER, Operator, arities_of, order, point_and_order, primes_misused, too_high,
 };
 use super::super::suggest::{quoted, shortened};
 use super::super::{is_builtin_function, is_builtin_value};
-use super::{FREE_NAMES, Walk, wrong_arity};
+use super::{FREE_NAMES, Walk, listed, wrong_arity};
 
 impl<'a> Walk<'a, '_> {
     /// The operator that a call means, where the program has no function of that name.
@@ -32,8 +31,8 @@ impl<'a> Walk<'a, '_> {
         let shown: Vec<String> = args.iter().map(|&a| print_expr(self.exprs, a)).collect();
         let mut names = args.iter().filter_map(|&arg| self.candidate(arg));
         let variable = names.next().unwrap_or("x").to_owned();
-        let parameters = parameters_of(own, text);
-        let problem = primes_misused(callee, primes, parameters, &shown, &variable);
+        let arities = arities_of(own, text);
+        let problem = primes_misused(callee, primes, &arities, &shown, &variable);
         let found = problem.is_some();
         self.diagnostics.extend(problem);
         found
@@ -56,7 +55,7 @@ impl<'a> Walk<'a, '_> {
             );
         }
         let Some((&first, rest)) = args.split_first() else {
-            let problem = wrong_arity(callee, 0, "1 or more", operator.usage);
+            let problem = wrong_arity(callee, 0, "1 or more", &listed(&[operator.usage]));
             self.diagnostics.push(problem);
             return;
         };
@@ -94,10 +93,10 @@ impl<'a> Walk<'a, '_> {
         if own.is_some() {
             self.record_use(text, name.span);
         }
-        let parameters = parameters_of(own, text);
+        let arities = arities_of(own, text);
         if operator.kind == Kind::Diff {
             let (points, _) = point_and_order(self.exprs, rest);
-            if parameters == Some(1) && points.len() == 1 {
+            if arities.contains(&1) && points.len() == 1 {
                 self.expr(points[0]);
                 return;
             }
@@ -110,9 +109,10 @@ impl<'a> Walk<'a, '_> {
                 let names = f.params.iter();
                 names.map(|p| p.name.text.as_str()).collect()
             }));
-        } else if let Some(wanted) = parameters.filter(|&n| n != rest.len()) {
+        } else if !arities.contains(&rest.len()) && !arities.is_empty() {
+            let wanted: Vec<String> = arities.iter().map(usize::to_string).collect();
             let usage = format!("{}({})(…)", operator.name, shortened(text));
-            let problem = wrong_arity(name, rest.len(), &wanted.to_string(), &usage);
+            let problem = wrong_arity(name, rest.len(), &wanted.join(" or "), &quoted(&usage));
             self.diagnostics.push(problem);
         }
     }
@@ -203,7 +203,7 @@ impl<'a> Walk<'a, '_> {
         let before = self.diagnostics.len();
         self.name(name);
         if self.diagnostics.len() > before {
-            self.scope.push(text, false);
+            self.scope.push(text, true);
         }
     }
 
