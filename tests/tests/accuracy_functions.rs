@@ -88,7 +88,7 @@ fn every_function_has_references() {
     let names = builtins()
         .iter()
         .map(|b| b.names[0])
-        .chain(library_functions().iter().map(|f| f.name));
+        .chain(library_functions().map(|f| f.name));
     bare.extend(names.filter(|n| !formulas.contains(n)).map(str::to_owned));
     assert!(bare.is_empty(), "no references for {bare:?}");
 }

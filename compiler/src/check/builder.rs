@@ -5,11 +5,16 @@ use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
+use super::bounds::Bounds;
 use super::builtins::advice;
+use super::fold::FoldBudget;
+use super::iteration::Iteration;
+use super::library::MAX_LIBRARY_DEPTH;
 use super::names::MAX_CALL_DEPTH;
+use super::nesting::{Extent, Nesting};
 use super::scope::Scope;
-use super::suggest::quoted;
 use super::symbols::Symbols;
+use super::variables::Frame;
 use super::{Value, library, named_constant};
 use crate::ir::{Graph, Id, Op, Ty};
 use crate::types::Type;
@@ -40,9 +45,28 @@ pub struct Builder<'a> {
     pub(super) depth: usize,
     /// Functions and constants whose values are being built.
     pub(super) active: Vec<&'a str>,
-    pub(super) calls: FxHashMap<(Source, &'a str, Vec<Value>), Value>,
-    constants: FxHashMap<&'a str, Value>,
+    pub(super) calls: FxHashMap<(Source, &'a str, Vec<Value>), Known>,
+    /// Values of constants, each with the number of those that were known before it.
+    pub(super) constants: FxHashMap<&'a str, (Value, usize)>,
+    pub(super) bounds: Bounds,
+    pub(super) nesting: Nesting,
+    pub(super) folding: FoldBudget,
+    pub(super) frame: Frame<'a>,
+    /// Derivatives of functions at values, by their order.
+    pub(super) derivatives: FxHashMap<(Source, &'a str, u32, Value), Known>,
+    /// Number of nodes that the passes which take derivatives have visited.
+    pub(super) visits: usize,
     program: &'a File,
+}
+
+/// A call that was built.
+#[derive(Clone, Debug)]
+pub(super) struct Known {
+    pub value: Value,
+    /// The loops that it contains.
+    pub loops: Extent,
+    /// The number of calls that were known before it.
+    pub place: usize,
 }
 
 impl<'a> Builder<'a> {
@@ -59,15 +83,54 @@ impl<'a> Builder<'a> {
             depth: 0,
             active: Vec::new(),
             calls: FxHashMap::default(),
+            frame: Frame::default(),
+            derivatives: FxHashMap::default(),
+            visits: 0,
             constants: FxHashMap::default(),
+            bounds: Bounds::default(),
+            nesting: Nesting::default(),
+            folding: FoldBudget::default(),
             program,
         }
+    }
+
+    /// The same, knowing the ranges of the parameters that have one, in the order of their indices.
+    #[must_use]
+    pub fn with_ranges(mut self, ranges: &[Option<(f64, f64)>]) -> Self {
+        self.bounds.params = ranges.to_vec();
+        self
+    }
+
+    /// The operations that were spent on computing constant loops.
+    #[must_use]
+    pub fn spent(&self) -> u64 {
+        self.folding.spent()
     }
 
     /// The program's functions that have been called.
     pub fn called(&self) -> impl Iterator<Item = &'a str> + '_ {
         let of_program = |key: &&(Source, &'a str, Vec<Value>)| key.0 == Source::Program;
         self.calls.keys().filter(of_program).map(|key| key.1)
+    }
+
+    /// The program's functions that have been called without an error, with the types of the arguments and of the
+    /// value; one for each call.
+    pub fn signatures(&self) -> impl Iterator<Item = (&'a str, Vec<Type>, Type)> + '_ {
+        self.calls
+            .iter()
+            .filter_map(|((source, name, arguments), value)| {
+                let types = arguments.iter().map(|argument| argument.ty(&self.graph));
+                let inputs = types.collect::<Option<Vec<Type>>>()?;
+                let result = value.value.ty(&self.graph)?;
+                (*source == Source::Program).then_some((*name, inputs, result))
+            })
+    }
+
+    /// The program's constants that have been used without an error, with their types.
+    pub fn constant_types(&self) -> impl Iterator<Item = (&'a str, Type)> + '_ {
+        let typed =
+            |(name, known): (&&'a str, &(Value, usize))| Some((*name, known.0.ty(&self.graph)?));
+        self.constants.iter().filter_map(typed)
     }
 
     /// Reports a problem; the value is then an error, which is not reported again.
@@ -78,11 +141,18 @@ impl<'a> Builder<'a> {
 
     /// Defines a name for what is built next, such as an input of a formula.
     pub fn define(&mut self, name: &'a str, value: Value) {
+        self.frame.parameters.push((name, value.clone()));
         self.scope.push(name, value);
     }
 
-    /// Builds an expression of the current text.
+    /// Builds an expression of the current text, which must be a number, a vector or a truth value.
     pub fn expr(&mut self, id: ExprId) -> Value {
+        let value = self.any(id);
+        self.number(value, id)
+    }
+
+    /// Builds an expression of the current text, which may be a record.
+    pub(super) fn any(&mut self, id: ExprId) -> Value {
         if self.graph.budget().is_err() {
             return Value::Error;
         }
@@ -122,7 +192,7 @@ impl<'a> Builder<'a> {
                 primes,
                 args,
             } => self.call(callee, *primes, args, span),
-            Expr::Member { base, field } => self.swizzle(*base, field),
+            Expr::Member { base, field } => self.member(*base, field),
             Expr::Vector(items) => self.vector(items),
             Expr::If {
                 cond,
@@ -132,8 +202,20 @@ impl<'a> Builder<'a> {
             Expr::Piecewise { arms, otherwise } => {
                 self.choice(arms.iter().copied(), *otherwise, span)
             }
-            Expr::Where { body, locals } => self.locals(*body, locals),
-            Expr::Series { .. } | Expr::Iterate { .. } | Expr::Integral { .. } => Value::Error,
+            Expr::Where { body, locals } => self.locals(*body, locals, span),
+            Expr::Series { kind, ranges, term } => self.series(*kind, ranges, *term),
+            Expr::Iterate {
+                count,
+                states,
+                steps,
+                until,
+            } => self.iteration(&Iteration {
+                count: *count,
+                states,
+                steps,
+                until: *until,
+            }),
+            Expr::Integral { body, range } => self.integral(*body, range, span),
         }
     }
 
@@ -157,15 +239,16 @@ impl<'a> Builder<'a> {
         value
     }
 
-    fn locals(&mut self, body: ExprId, locals: &'a [Local]) -> Value {
-        let depth = self.scope.len();
+    fn locals(&mut self, body: ExprId, locals: &'a [Local], span: Span) -> Value {
+        let (depth, bound) = (self.scope.len(), self.bound());
         for local in locals {
-            let value = self.expr(local.value);
+            let value = self.local(local);
             self.name_value(&local.name.text, &value);
-            self.scope.push(&local.name.text, value);
+            self.bind_local(&local.name.text, value, span);
         }
-        let value = self.expr(body);
+        let mut value = self.any(body);
         self.scope.truncate(depth);
+        self.release(bound, std::slice::from_mut(&mut value));
         value
     }
 
@@ -188,7 +271,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn name(&mut self, name: &'a Name) -> Value {
+    pub(super) fn name(&mut self, name: &'a Name) -> Value {
         let text = name.text.as_str();
         if let Some(value) = self.scope.get(text) {
             return value.clone();
@@ -213,15 +296,18 @@ impl<'a> Builder<'a> {
     }
 
     fn constant(&mut self, name: &'a str, body: ExprId) -> Value {
-        if let Some(value) = self.constants.get(name) {
+        if let Some((value, _)) = self.constants.get(name) {
             return value.clone();
         }
         if self.active.contains(&name) {
             return Value::Error;
         }
+        let around = self.nesting.outermost();
         let value = self.outside(name, Source::Program, Scope::default(), body);
+        self.nesting = around;
         self.name_value(name, &value);
-        self.constants.insert(name, value.clone());
+        let place = self.constants.len();
+        self.constants.insert(name, (value.clone(), place));
         value
     }
 
@@ -230,11 +316,11 @@ impl<'a> Builder<'a> {
         &mut self,
         name: &'a str,
         source: Source,
-        scope: Scope<'a, Value>,
+        mut scope: Scope<'a, Value>,
         body: ExprId,
     ) -> Value {
         // longer chains have been reported by the pass over names
-        if self.active.len() > MAX_CALL_DEPTH + 1 {
+        if self.active.len() > MAX_CALL_DEPTH + MAX_LIBRARY_DEPTH + 1 {
             return Value::Error;
         }
         let file = match source {
@@ -243,11 +329,15 @@ impl<'a> Builder<'a> {
         };
         let file = std::mem::replace(&mut self.file, file);
         let source = std::mem::replace(&mut self.source, source);
+        let frame = self.frame_of(&mut scope, self.span(body));
+        let frame = std::mem::replace(&mut self.frame, frame);
         let scope = std::mem::replace(&mut self.scope, scope);
         self.active.push(name);
-        let value = self.expr(body);
+        let mut value = self.any(body);
         self.active.pop();
-        (self.file, self.source, self.scope) = (file, source, scope);
+        self.release(0, std::slice::from_mut(&mut value));
+        (self.file, self.source) = (file, source);
+        (self.scope, self.frame) = (scope, frame);
         value
     }
 
@@ -284,62 +374,17 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn swizzle(&mut self, base: ExprId, field: &'a Name) -> Value {
-        let value = self.expr(base);
-        let items = match &value {
-            Value::Error => return Value::Error,
-            Value::Vector(items) => items.clone(),
-            Value::Scalar(_) => {
-                let Some(ty) = value.ty(&self.graph) else {
-                    return Value::Error;
-                };
-                let problem = Diagnostic::error(
-                    "bad-swizzle",
-                    field.span,
-                    format!("only vectors have components, this is {ty}"),
-                );
-                return self.report(if ty == Type::Complex {
-                    problem.with_hint("the parts of a complex number are re(z) and im(z)")
-                } else {
-                    problem.with_hint("write `*` for a product; a vector is written (x, y)")
-                });
-            }
-        };
-        let mut ids: SmallVec<[Id; 4]> = SmallVec::new();
-        for letter in field.text.chars() {
-            let index = "xyzw".find(letter).or_else(|| "rgba".find(letter));
-            match index.and_then(|k| items.get(k)) {
-                Some(&id) => ids.push(id),
-                None => return self.bad_swizzle(field, letter, items.len()),
-            }
-        }
-        match ids.as_slice() {
-            [id] => Value::Scalar(*id),
-            [_, _] | [_, _, _] | [_, _, _, _] => Value::Vector(ids),
-            _ => self.bad_swizzle(field, ' ', items.len()),
-        }
-    }
-
-    fn bad_swizzle(&mut self, field: &Name, letter: char, size: usize) -> Value {
-        let (known, twins) = (&"xyzw"[..size.min(4)], &"rgba"[..size.min(4)]);
-        let (message, hint) = if letter == ' ' {
-            let message = format!("{} has more than four letters", quoted(&field.text));
-            (message, "a vector has at most 4 components".to_owned())
-        } else {
-            let message = format!("a vec{size} has no component `{letter}`");
-            (
-                message,
-                format!("the components of a vec{size} are {known}, or {twins}"),
-            )
-        };
-        self.report(Diagnostic::error("bad-swizzle", field.span, message).with_hint(hint))
-    }
-
     /// The function of the program with this name.
     pub(super) fn user_function(&self, name: &str) -> Option<&'a Function> {
         (self.source == Source::Program)
             .then(|| self.symbols.functions.get(name).copied())
             .flatten()
+    }
+
+    /// Whether the program defines a value of this name.
+    pub(super) fn is_defined_value(&self, name: &str) -> bool {
+        self.source == Source::Program
+            && (self.symbols.constants.contains_key(name) || self.symbols.params.contains_key(name))
     }
 
     /// Where an expression of the current text stands, in the user's text.

@@ -44,6 +44,12 @@ impl<'a, T> Scope<'a, T> {
         self.entries.get(*place).map(|entry| &entry.meaning)
     }
 
+    /// [`Self::get`], to be changed.
+    pub fn get_mut(&mut self, name: &str) -> Option<&mut T> {
+        let place = self.innermost.get(name)?;
+        self.entries.get_mut(*place).map(|entry| &mut entry.meaning)
+    }
+
     /// Number of entries, to be given to [`Self::truncate`].
     pub fn len(&self) -> usize {
         self.entries.len()
@@ -59,6 +65,13 @@ impl<'a, T> Scope<'a, T> {
                 None => self.innermost.remove(entry.name),
             };
         }
+    }
+
+    /// Every name with what it stands for, hidden ones included, in the order in which they began to hold.
+    pub fn entries(&self) -> impl Iterator<Item = (&'a str, &T)> + '_ {
+        self.entries
+            .iter()
+            .map(|entry| (entry.name, &entry.meaning))
     }
 
     /// Every name, hidden ones included.

@@ -130,6 +130,8 @@ pub enum Prim {
     Sign,
     Min,
     Max,
+    /// A number in [0, 1) from a point of the lattice of integers.
+    Hash,
     Less,
     LessEqual,
     Equal,

@@ -7,6 +7,7 @@
 pub mod arc;
 pub mod complex;
 pub mod gamma;
+pub mod hash;
 pub mod polygamma;
 pub mod real;
 pub mod slope;

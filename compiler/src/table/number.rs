@@ -51,7 +51,7 @@ pub(super) fn evaluate(row: &Row, prim: Prim, operands: &[Number]) -> Option<Num
     Some(Number::Complex(row.complex?(&operands)))
 }
 
-type ArgBuffer<T> = smallvec::SmallVec<[T; 3]>;
+type ArgBuffer<T> = smallvec::SmallVec<[T; 4]>;
 
 /// Operations whose operand or result types are not all alike.
 fn structural(prim: Prim, operands: &[Number]) -> Option<Number> {

@@ -9,6 +9,9 @@ impl Parser<'_> {
     #[cold]
     pub(crate) fn complain_not_closed(&mut self, opened: &Opened) {
         self.is_broken = true;
+        if self.is_hushed() {
+            return;
+        }
         let (open, close) = match opened.kind {
             TokenKind::LParen => ("(", ")"),
             _ => ("{", "}"),
@@ -35,6 +38,9 @@ impl Parser<'_> {
 
     #[cold]
     pub(crate) fn complain_missing_bar(&mut self, opening: Span) {
+        if self.is_hushed() {
+            return;
+        }
         let doubled = self.text.get(opening.end as usize..);
         let is_doubled = doubled.is_some_and(|rest| rest.starts_with('|'))
             || self
@@ -69,7 +75,7 @@ impl Parser<'_> {
     #[cold]
     pub(crate) fn complain_long_vector(&mut self, span: Span, count: usize) {
         let message = format!("a vector of {count} components");
-        self.diagnostics.push(
+        self.report(
             Diagnostic::error("long-vector", span, message)
                 .with_label("a vector has two to four components")
                 .with_hint("write a function's name before the bracket if a call is meant"),
@@ -111,12 +117,15 @@ impl Parser<'_> {
             return;
         }
         if let Some(place) = self.retract_missing_operator(opening) {
-            self.diagnostics.push(
+            self.report(
                 Diagnostic::error("missing-colon", place, "missing `:`")
                     .with_label("expected `:` between these")
                     .with_hint("write `{ condition: value, else: value }`"),
             );
             self.mark_complained();
+            return;
+        }
+        if self.is_hushed() {
             return;
         }
         let hint = if is_else {
@@ -157,6 +166,9 @@ impl Parser<'_> {
             self.mark_complained();
             return;
         }
+        if self.is_hushed() {
+            return;
+        }
         let quoted = self.describe();
         let defines = kind == TokenKind::Name && self.ahead(1) == TokenKind::Equals;
         let (code, message, hint) = match kind {
@@ -170,10 +182,20 @@ impl Parser<'_> {
                 format!("{quoted} without `if`"),
                 Some("write `if c then a else b`"),
             ),
+            TokenKind::In if opened.is_some() => (
+                "unexpected-token",
+                "`in` outside of a sum, product or integral".to_owned(),
+                Some("write `sum(k in 1..n, term)`, `product(…)` or `integral(t in a..b, expr)`"),
+            ),
             TokenKind::In => (
                 "unexpected-token",
                 "`in` outside of `param`".to_owned(),
                 Some("write `param name = value in lo..hi`"),
+            ),
+            TokenKind::Until => (
+                "unexpected-token",
+                "`until` outside of `iterate`".to_owned(),
+                Some("write it in the brackets: `iterate(n, z = start, step until condition)`"),
             ),
             TokenKind::DotDot => (
                 "unexpected-token",
