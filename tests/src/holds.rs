@@ -154,7 +154,7 @@ pub fn compiling(bytes: &[u8], modules: bool) -> Result<(), String> {
         if formula.graph.nodes().len() > 20_000 {
             continue;
         }
-        for what in [What::Value, What::Gradient, What::Derivative] {
+        for what in [What::Value, What::Gradient, What::Derivative, What::Hessian] {
             match program.evaluator(k, what) {
                 Ok(mut evaluator) => {
                     let mut out = vec![0.0; evaluator.outputs().len()];
