@@ -30,6 +30,8 @@ pub(crate) struct Parser<'a> {
     pub(crate) is_broken: bool,
     tokens: &'a [Token],
     at: usize,
+    /// Kind of the token at `at`.
+    here: TokenKind,
     start: usize,
     end: usize,
     /// Nesting of each expression in the arena, left operands not counted; at most [`MAX_NESTING`].
@@ -78,6 +80,7 @@ impl<'a> Parser<'a> {
             is_broken: false,
             tokens,
             at: 0,
+            here: TokenKind::End,
             start: 0,
             end: 0,
             heights: Vec::new(),
@@ -93,9 +96,9 @@ impl<'a> Parser<'a> {
 
     /// Goes to the beginning of a statement.
     pub(crate) fn enter(&mut self, statement: &Statement) {
-        self.at = statement.start;
         self.start = statement.start;
         self.end = statement.end.min(self.tokens.len());
+        self.go_to(statement.start);
         self.statement = statement.kind;
         self.depth = 0;
         self.bars = 0;
@@ -110,6 +113,12 @@ impl<'a> Parser<'a> {
         self.warns_enough = self.warnings > MAX_DIAGNOSTICS;
     }
 
+    /// Goes to the token with this index.
+    fn go_to(&mut self, at: usize) {
+        self.at = at;
+        self.here = self.ahead(0);
+    }
+
     /// Index of the token here.
     pub(crate) fn position(&self) -> usize {
         self.at
@@ -117,7 +126,7 @@ impl<'a> Parser<'a> {
 
     /// Kind of the token here, [`TokenKind::End`] at the end of the statement.
     pub(crate) fn kind(&self) -> TokenKind {
-        self.ahead(0)
+        self.here
     }
 
     /// Kind of the token `n` places on.
@@ -144,7 +153,7 @@ impl<'a> Parser<'a> {
 
     /// Whether a token of this kind is here.
     pub(crate) fn at(&self, kind: TokenKind) -> bool {
-        self.kind() == kind
+        self.here == kind
     }
 
     /// Place of the token here; the empty place behind the last token at the end of the statement.
@@ -206,7 +215,7 @@ impl<'a> Parser<'a> {
     pub(crate) fn bump(&mut self) -> Span {
         let span = self.span();
         if self.at < self.end {
-            self.at += 1;
+            self.go_to(self.at + 1);
         }
         span
     }
@@ -286,7 +295,7 @@ impl<'a> Parser<'a> {
 
     /// Leaves the rest of the statement unread.
     pub(crate) fn abandon(&mut self) {
-        self.at = self.end;
+        self.go_to(self.end);
         self.complained_at = Some(self.end);
         self.abandoned = true;
     }

@@ -1,4 +1,5 @@
-//! A hundred thousand random programs: what is printed of them reads back as them, with comments and formatted too.
+//! Random programs: what is printed of them reads back as them, with comments and formatted too; damaged ones are
+//! read, and what is accepted of them is printed and read as well.
 
 mod support;
 
@@ -7,8 +8,8 @@ use std::mem::discriminant;
 
 use pullback_grammar::ast::Item;
 use pullback_grammar::{format, parse, print, same_tree};
-use support::generate::{Random, program, with_comments};
-use support::is_function;
+use support::generate::{Random, damaged, program, with_comments};
+use support::{is_function, read};
 
 const COUNT: u64 = 100_000;
 
@@ -53,4 +54,31 @@ fn programs_are_read_as_they_are_printed() {
             .chain(statements.values())
             .all(|&count| count > 5000)
     );
+}
+
+#[test]
+fn damaged_programs_are_read() {
+    let mut accepted = 0;
+    for seed in 0..15_000 {
+        let random = &mut Random::new(seed);
+        let text = damaged(&print(&program(random)), random);
+        let parsed = read(&text);
+        if parsed.has_errors() {
+            continue;
+        }
+        accepted += 1;
+        let printed = print(&parsed.file);
+        let again = read(&printed);
+        assert!(
+            !again.has_errors(),
+            "{seed}:\n{text}\n{printed}\n{:?}",
+            again.diagnostics
+        );
+        assert!(
+            same_tree(&parsed.file, &again.file),
+            "{seed}:\n{text}\n{printed}"
+        );
+        assert_eq!(print(&again.file), printed, "{seed}:\n{text}");
+    }
+    assert!((1000..10_000).contains(&accepted), "{accepted}");
 }

@@ -6,6 +6,7 @@ pub mod evaluators;
 pub mod formulas;
 pub mod measure;
 pub mod report;
+pub mod second;
 pub mod subjects;
 pub mod sweep;
 pub mod tables;

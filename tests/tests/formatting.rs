@@ -65,7 +65,7 @@ fn formatting_keeps_what_random_programs_mean() {
         computed += usize::from(program.is_some_and(|p| !formatting::values(&p).is_empty()));
     }
     assert!(
-        formatted >= 1000 && computed >= 300,
+        formatted >= 1000 && computed >= 200,
         "only {formatted} programs, {computed} of them computed"
     );
 }

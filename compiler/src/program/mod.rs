@@ -16,6 +16,7 @@ pub use outline::{ConstantInfo, FunctionInfo, MAX_SIGNATURES, Outline, Signature
 use pullback_grammar::diagnostic::limit;
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
+pub use unused::MAX_UNUSED;
 
 /// A parameter: a number that can change without compiling again.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,6 +8,7 @@ use pullback_grammar::ast::{
     BinaryOp, CompareOp, Constant, Expr, ExprId, File, Formal, Formula, Function, Item, Local,
     Name, Param, Range, SeriesKind, Setting, Show, UnaryOp,
 };
+use pullback_grammar::token::tokenize;
 
 use super::is_function;
 
@@ -105,7 +106,7 @@ impl Maker<'_> {
                 self.functions.push(name);
             }
         }
-        for _ in 0..self.random.below(3) {
+        for _ in 0..self.random.below(2) {
             let name = self.bindable();
             if !self.functions.contains(&name) && !self.constants.contains(&name) {
                 self.constants.push(name);
@@ -125,8 +126,8 @@ impl Maker<'_> {
             };
             self.add(item);
         }
-        for _ in 0..1 + self.random.below(2) {
-            let item = if self.random.once_in(3) {
+        for index in 0..1 + self.random.below(2) {
+            let item = if index > 0 && self.random.once_in(2) {
                 self.show()
             } else {
                 let size = self.random.below(11);
@@ -484,4 +485,28 @@ pub fn with_comments(text: &str, random: &mut Random) -> String {
         out.push('\n');
     }
     out
+}
+
+/// The text of a program with a few tokens left out, doubled, exchanged or put elsewhere.
+pub fn damaged(text: &str, random: &mut Random) -> String {
+    let (tokens, _) = tokenize(text);
+    let mut words: Vec<&str> = Vec::new();
+    let mut end = 0;
+    for token in &tokens {
+        // The blanks before a token are a word of their own, as some of them matter.
+        words.push(&text[end..token.span.start as usize]);
+        words.push(token.span.text(text));
+        end = token.span.end as usize;
+    }
+    for _ in 0..1 + random.below(2) {
+        let (from, to) = (random.below(words.len()), random.below(words.len()));
+        match random.below(5) {
+            0 => words[from] = "",
+            1 => words[from] = random.pick(&["\n", " ", "(", ")", ",", "=", "k in 1..2,", "until"]),
+            2 => words[from] = words[to],
+            3 => words.swap(from, to),
+            _ => words.insert(to, words[from]),
+        }
+    }
+    words.concat()
 }

@@ -35,7 +35,8 @@ struct Entry {
 /// The operator table, what the compiler builds from it, the calculus, and what is written in the language itself.
 fn entries() -> Vec<Entry> {
     let also = |names: &'static [&'static str]| names.iter().skip(1).copied().collect();
-    let table = table::rows().iter().map(|row| Entry {
+    let table = table::rows().iter().filter(|row| row.is_written());
+    let table = table.map(|row| Entry {
         usage: row.usage.to_owned(),
         types: types(row),
         also: also(row.names),

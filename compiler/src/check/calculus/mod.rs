@@ -9,7 +9,8 @@ mod partial;
 mod prime;
 
 pub(super) use arguments::{arities_of, order, point_and_order};
-pub(super) use prime::{MAX_ORDER, primes_misused, too_high};
+pub use prime::MAX_ORDER;
+pub(super) use prime::{primes_misused, too_high};
 
 /// An operator of the calculus, as the function reference lists it.
 #[derive(Debug)]
