@@ -37,7 +37,7 @@ impl Parser<'_> {
     pub(crate) fn bump_name(&mut self) -> Name {
         let span = self.bump();
         Name {
-            text: span.text(self.text).to_owned(),
+            text: self.spelling(span).to_owned(),
             span,
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::ast::{Expr, ExprId, Exprs, MAX_NESTING};
 use crate::layout::{Layout, Statement, StatementKind};
+use crate::paste::Spellings;
 use crate::scope::Scope;
 use crate::token::{Token, TokenKind};
 use crate::{Diagnostic, Span};
@@ -28,6 +29,7 @@ pub(crate) struct Parser<'a> {
     /// nowhere are then consequences.
     pub(crate) is_broken: bool,
     tokens: &'a [Token],
+    spellings: &'a Spellings,
     at: usize,
     start: usize,
     end: usize,
@@ -50,6 +52,7 @@ impl<'a> Parser<'a> {
     pub(crate) fn new(
         text: &'a str,
         tokens: &'a [Token],
+        spellings: &'a Spellings,
         layout: &'a Layout,
         scope: Scope<'a>,
     ) -> Self {
@@ -67,6 +70,7 @@ impl<'a> Parser<'a> {
             open_braces: 0,
             is_broken: false,
             tokens,
+            spellings,
             at: 0,
             start: 0,
             end: 0,
@@ -174,6 +178,14 @@ impl<'a> Parser<'a> {
         self.tokens.get(self.at - 1)
     }
 
+    /// The place of all tokens of a statement: those of other notations may have changed their order.
+    pub(crate) fn spread(&self, statement: &Statement) -> Span {
+        let range = statement.start..statement.end.min(self.tokens.len());
+        let tokens = self.tokens.get(range).unwrap_or_default();
+        let spans = tokens.iter().map(|token| token.span);
+        spans.reduce(Span::join).unwrap_or_default()
+    }
+
     /// Whether the token here stands first on its line.
     pub(crate) fn starts_line(&self) -> bool {
         self.at < self.end && self.tokens.get(self.at).is_some_and(|t| t.starts_line)
@@ -183,7 +195,14 @@ impl<'a> Parser<'a> {
     pub(crate) fn token_text(&self, index: usize) -> &'a str {
         self.tokens
             .get(index)
-            .map_or("", |token| token.span.text(self.text))
+            .map_or("", |token| self.spelling(token.span))
+    }
+
+    /// The text of a name or number in this language, whatever the notation it was written in.
+    pub(crate) fn spelling(&self, span: Span) -> &'a str {
+        self.spellings
+            .get(span)
+            .unwrap_or_else(|| span.text(self.text))
     }
 
     /// Goes past the token here and returns its place.
@@ -214,7 +233,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Adds an expression to the arena, unless it is nested too deeply.
-    pub(crate) fn node(&mut self, expr: Expr, span: Span) -> Node {
+    pub(crate) fn node(&mut self, expr: Expr, mut span: Span) -> Node {
         let mut height = 0;
         let lhs = match expr {
             Expr::Binary { op, lhs, .. } if op != crate::ast::BinaryOp::Pow => Some(lhs),
@@ -223,6 +242,8 @@ impl<'a> Parser<'a> {
         expr.for_each_child(|child| {
             let below = self.heights.get(child.index()).copied().unwrap_or(0);
             height = height.max(below + usize::from(Some(child) != lhs));
+            // the tokens of other notations may have changed their order
+            span = span.join(self.exprs.span(child));
         });
         if height > MAX_NESTING {
             self.complain_too_deep(span);

@@ -223,7 +223,7 @@ fn begins_statement(tokens: &[Token], start: usize, at: usize, levels: &Levels) 
 }
 
 /// Whether a line that ends in this token goes on in the next.
-fn wants_more(kind: TokenKind) -> bool {
+pub(crate) fn wants_more(kind: TokenKind) -> bool {
     use TokenKind::{Comma, DotDot, Else, Equals, If, In, Not, Root, Then, Where};
     kind.is_infix()
         || matches!(
@@ -233,13 +233,13 @@ fn wants_more(kind: TokenKind) -> bool {
 }
 
 /// Whether a line that begins with this token belongs to the line before.
-fn goes_on(kind: TokenKind) -> bool {
+pub(crate) fn goes_on(kind: TokenKind) -> bool {
     use TokenKind::{Comma, DotDot, Else, Equals, In, Then, Where};
     kind.is_infix() || matches!(kind, Comma | Equals | Where | Then | Else | In | DotDot)
 }
 
 /// Whether something that can only be a statement stands at `at`.
-fn definition_begins(tokens: &[Token], at: usize) -> bool {
+pub(crate) fn definition_begins(tokens: &[Token], at: usize) -> bool {
     match kind(tokens, at) {
         TokenKind::Param | TokenKind::Show => true,
         TokenKind::Name => match kind(tokens, at + 1) {

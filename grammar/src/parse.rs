@@ -4,6 +4,7 @@ use crate::ast::{File, MAX_SOURCE_BYTES};
 use crate::cursor::Parser;
 use crate::diagnostic::limit;
 use crate::layout::layout;
+use crate::paste::translate;
 use crate::scope::Scope;
 use crate::token::tokenize;
 use crate::{Diagnostic, Span};
@@ -40,6 +41,9 @@ pub fn parse(text: &str, is_function: &dyn Fn(&str) -> bool) -> Parsed {
         return too_large(text.len());
     }
     let (tokens, mut diagnostics) = tokenize(text);
+    let mut pasted = translate(text, tokens);
+    diagnostics.append(&mut pasted.diagnostics);
+    let tokens = pasted.tokens;
     let layout = layout(&tokens);
     if layout.statements.is_empty() && diagnostics.is_empty() {
         diagnostics.push(
@@ -48,7 +52,13 @@ pub fn parse(text: &str, is_function: &dyn Fn(&str) -> bool) -> Parsed {
                 .with_hint("write a formula, such as `x^2 + y^2 - 1`"),
         );
     }
-    let mut parser = Parser::new(text, &tokens, &layout, Scope::new(is_function));
+    let mut parser = Parser::new(
+        text,
+        &tokens,
+        &pasted.spellings,
+        &layout,
+        Scope::new(is_function),
+    );
     parser.collect_definitions();
     let items = parser.file();
     diagnostics.append(&mut parser.diagnostics);

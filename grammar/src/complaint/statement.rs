@@ -191,9 +191,8 @@ impl Parser<'_> {
 
     /// Comes back from arguments, in which these names held.
     pub(crate) fn leave_arguments(&mut self, bound: &[Span]) {
-        let text = self.text;
         for name in bound {
-            self.scope.unbind(name.text(text));
+            self.scope.unbind(self.spelling(*name));
         }
         self.ascend();
     }

@@ -23,7 +23,7 @@ impl Parser<'_> {
         };
         let span = start.join(self.last_span());
         let expr = Expr::Call {
-            callee,
+            callee: self.by_arguments(callee, args.len()),
             primes,
             args,
         };
@@ -71,7 +71,7 @@ impl Parser<'_> {
     fn binding(&mut self) -> Span {
         let name = self.span();
         self.bump();
-        self.scope.bind(name.text(self.text));
+        self.scope.bind(self.spelling(name));
         if self.eat(TokenKind::In) {
             self.range();
         } else {
