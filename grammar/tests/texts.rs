@@ -67,6 +67,22 @@ fn well_formed_texts() {
 }
 
 #[test]
+fn pasted_texts() {
+    let count = fixture::check("pasted.txt", |text| {
+        let parsed = read(text);
+        let printed = print(&parsed.file);
+        if !parsed.has_errors() {
+            let again = read(&printed);
+            assert_eq!(again.diagnostics, [], "{text}\n{printed}");
+            assert_eq!(show_file(&parsed.file), show_file(&again.file), "{printed}");
+            assert_eq!(format(text, &is_function).as_ref(), Some(&printed), "{text}");
+        }
+        format!("{}\n{}", printed.trim_end(), complaints(text, &parsed))
+    });
+    assert!(count >= 100, "{count}");
+}
+
+#[test]
 fn malformed_texts() {
     let mut codes = HashSet::new();
     let seen = std::cell::RefCell::new(&mut codes);

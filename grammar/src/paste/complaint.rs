@@ -55,6 +55,24 @@ impl Translator<'_> {
         self.complain("unknown-command", span, message, "a command of LaTeX", hint);
     }
 
+    /// A command such as `\frac` without what it is applied to.
+    pub(super) fn complain_no_argument(&mut self, span: Span) {
+        let is_consequence = self.diagnostics.last().is_some_and(|last| {
+            last.code == "missing-closing" && last.span.start >= self.last_span().end
+        });
+        if is_consequence {
+            return;
+        }
+        let shown = shorten(span.text(self.text));
+        self.complain(
+            "missing-argument",
+            span,
+            format!("`{shown}` lacks an argument"),
+            "expected `{…}` behind it",
+            format!("write `{shown}{{…}}` with all its arguments"),
+        );
+    }
+
     /// A group of LaTeX that no `}` ends.
     pub(super) fn complain_open_group(&mut self, opening: Span, close: &str) {
         let here = self.last_span().end;
@@ -70,7 +88,7 @@ impl Translator<'_> {
 
     /// Tokens of the output as text of this language, short.
     pub(super) fn shown(&self, tokens: &[Token]) -> String {
-        use TokenKind::{Bang, Caret, Comma, Dot, LParen, Name, Number, RParen, Superscript};
+        use TokenKind::{Bang, Caret, Comma, Dot, DotDot, LParen, Name, Number, RParen, Superscript};
         // The spelling is looked up here and not in a sorted table: only a few of the latest are asked for.
         const LIMIT: usize = 24;
         let mut out = String::new();
@@ -80,8 +98,11 @@ impl Translator<'_> {
                 out.push('…');
                 break;
             }
-            let tight = matches!(before, LParen | Caret | Dot)
-                || matches!(token.kind, RParen | Caret | Dot | Comma | Bang | Superscript)
+            let tight = matches!(before, LParen | Caret | Dot | DotDot)
+                || matches!(
+                    token.kind,
+                    RParen | Caret | Dot | DotDot | Comma | Bang | Superscript
+                )
                 || (before == Name && token.kind == LParen)
                 || (before == Number && matches!(token.kind, Name | LParen));
             if !tight {

@@ -90,6 +90,7 @@ impl Translator<'_> {
             self.bump();
         }
         match self.kind() {
+            _ if self.statement_begins() => {}
             TokenKind::LParen => self.item(),
             TokenKind::LBrace => self.group(),
             TokenKind::Bar if !self.level.in_bars => self.in_bars(span),

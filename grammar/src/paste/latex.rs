@@ -5,7 +5,7 @@ use super::command::{self, Meaning};
 use crate::Span;
 use crate::layout::goes_on;
 use crate::stray::shorten;
-use crate::token::TokenKind;
+use crate::token::{Token, TokenKind};
 
 impl Translator<'_> {
     /// What the command here means.
@@ -64,10 +64,13 @@ impl Translator<'_> {
         }
     }
 
-    /// Complains of a command, and leaves a gap in its place.
+    /// Complains of a command, and leaves a gap in its place and that of its scripts.
     pub(super) fn refuse(&mut self, span: Span, hint: &str) {
         self.complain_command(span, hint);
         self.emit(TokenKind::Error, span);
+        let count = self.diagnostics.len();
+        self.limits(false);
+        self.diagnostics.truncate(count);
     }
 
     /// A Greek letter or `\infty`.
@@ -136,6 +139,9 @@ impl Translator<'_> {
                         "not letters and digits",
                         hint,
                     );
+                    if self.kind() == TokenKind::LBrace {
+                        self.capture(Self::group);
+                    }
                 }
             }
         }
@@ -214,6 +220,7 @@ impl Translator<'_> {
         }
         let place = self.span();
         match self.kind() {
+            _ if self.statement_begins() || self.closes() => return self.no_argument(owner),
             TokenKind::Number | TokenKind::Name => {
                 self.emit(TokenKind::LParen, place);
                 self.first_character();
@@ -226,6 +233,14 @@ impl Translator<'_> {
         }
         let end = self.last_span();
         self.emit(TokenKind::RParen, end);
+    }
+
+    /// Stands for an argument that is missing.
+    fn no_argument(&mut self, owner: Span) {
+        self.complain_no_argument(owner);
+        self.emit(TokenKind::LParen, owner);
+        self.emit(TokenKind::Error, owner);
+        self.emit(TokenKind::RParen, owner);
     }
 
     /// The first digit or letter of the token here; the rest of it stays.
@@ -265,8 +280,13 @@ impl Translator<'_> {
     fn fraction(&mut self, span: Span) {
         self.emit(TokenKind::LParen, span);
         self.argument_of_command(span);
+        let is_over = self.kind() != TokenKind::LBrace && self.statement_begins();
         self.emit(TokenKind::Slash, span);
-        self.argument_of_command(span);
+        if is_over {
+            self.no_argument(span);
+        } else {
+            self.argument_of_command(span);
+        }
         let end = self.last_span();
         self.emit(TokenKind::RParen, end);
     }
@@ -426,7 +446,8 @@ impl Translator<'_> {
         let end = if is_end(self) {
             self.bump()
         } else {
-            self.complain_open_group(opening, close);
+            let missing = if close == "\\right" { "\\right)" } else { close };
+            self.complain_open_group(opening, missing);
             self.last_span()
         };
         if is_bar {
@@ -522,12 +543,34 @@ impl Translator<'_> {
             "cases" | "dcases" => self.cases(whole),
             "aligned" | "align" | "equation" | "gathered" | "gather" | "split" | "multline"
             | "displaymath" | "math" => self.environments += 1,
-            "pmatrix" | "bmatrix" | "matrix" => self.refuse(
+            "pmatrix" | "bmatrix" | "matrix" => self.refuse_environment(
                 whole,
                 "there are no matrices; write `(a, b)` for a vector, `rotate(p, angle)` for a rotation",
             ),
-            _ => self.refuse(whole, "write the formula itself"),
+            _ => self.refuse_environment(whole, "write the formula itself"),
         }
+    }
+
+    /// Complains of an environment and leaves it out.
+    fn refuse_environment(&mut self, span: Span, hint: &str) {
+        let is_end = |token: &Token| {
+            token.kind == TokenKind::Command && token.span.text(self.text) == "\\end"
+        };
+        let rest = self.tokens.get(self.at..).unwrap_or_default();
+        let end = (!self.is_endless).then(|| rest.iter().position(is_end));
+        match end {
+            Some(Some(distance)) => {
+                for _ in 0..=distance {
+                    self.bump();
+                }
+                for _ in 0..self.environment().map_or(0, |found| found.1) {
+                    self.bump();
+                }
+            }
+            // not looked for again: each search would go to the end of the text
+            _ => self.is_endless = true,
+        }
+        self.refuse(span, hint);
     }
 
     /// `\end{…}`

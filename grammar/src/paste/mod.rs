@@ -63,6 +63,7 @@ pub(crate) fn translate(text: &str, tokens: Vec<Token>) -> Pasted {
         closers: Closers::default(),
         depth: 0,
         environments: 0,
+        is_endless: false,
         integrals: 0,
         bracketed: HashSet::new(),
         is_show: false,
@@ -183,6 +184,8 @@ struct Translator<'a> {
     depth: usize,
     /// Environments such as `aligned` open here, in which `&` and `\\` are layout.
     environments: usize,
+    /// Whether no `\end` is to come.
+    is_endless: bool,
     /// Integrals whose `dx` is still to come.
     integrals: usize,
     /// Functions that are defined as `f[x_] := …`.

@@ -7,7 +7,7 @@ use crate::token::{Token, TokenKind};
 
 /// What stands at a big operator.
 #[derive(Default)]
-struct Limits {
+pub(super) struct Limits {
     /// Name of the index.
     index: Option<Span>,
     lower: Vec<Token>,
@@ -104,7 +104,7 @@ impl Translator<'_> {
     }
 
     /// `_{k=1}^{n}`, in either order.
-    fn limits(&mut self, has_index: bool) -> Limits {
+    pub(super) fn limits(&mut self, has_index: bool) -> Limits {
         let mut limits = Limits::default();
         loop {
             self.skip_spacing();
@@ -130,6 +130,9 @@ impl Translator<'_> {
                         let end = this.span();
                         this.emit(TokenKind::RParen, end);
                     });
+                    if let [_, only, _] = limits.lower.as_slice() {
+                        limits.lower = vec![*only];
+                    }
                     if self.kind() == TokenKind::RBrace {
                         self.bump();
                     } else {
