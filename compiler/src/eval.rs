@@ -1,6 +1,8 @@
 //! The reference evaluator: the IR in `f64`, operation by operation as the operator table defines them.
 
-use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
+use smallvec::SmallVec;
+
+use crate::ir::{Graph, Id, Node, Op, Plan, Prim, Schedule, Ty, merge_loops};
 use crate::reference::complex::complex;
 use crate::table::{self, Number};
 
@@ -21,9 +23,27 @@ pub struct Leaves<'a> {
 #[derive(Clone, Debug)]
 pub struct Tape {
     nodes: Vec<Node>,
-    ids: Vec<Id>,
+    steps: Vec<Step>,
     roots: Vec<Id>,
     values: Vec<Number>,
+}
+
+/// What is done next.
+#[derive(Clone, Debug)]
+enum Step {
+    /// A node is computed.
+    Node(Id),
+    /// A loop is run.
+    Loop(Box<Repeat>),
+}
+
+#[derive(Clone, Debug)]
+struct Repeat {
+    plan: Plan,
+    before: Vec<Step>,
+    after: Vec<Step>,
+    /// Each node that is a final state, with the state's leaf.
+    results: Vec<(Id, Id)>,
 }
 
 impl Tape {
@@ -31,10 +51,17 @@ impl Tape {
     #[must_use]
     pub fn new(graph: &Graph, roots: &[Id]) -> Self {
         let (graph, roots) = graph.compacted(roots);
+        let (graph, roots) = merge_loops(&graph, &roots);
         let values = vec![Number::Real(f64::NAN); graph.nodes().len()];
+        let steps = if graph.has_loops() {
+            let schedule = Schedule::new(&graph, &roots);
+            steps(&graph, &schedule, &schedule.top)
+        } else {
+            graph.ids().map(Step::Node).collect()
+        };
         Self {
             nodes: graph.nodes().to_vec(),
-            ids: graph.ids().collect(),
+            steps,
             roots,
             values,
         }
@@ -42,12 +69,74 @@ impl Tape {
 
     /// Computes every root, and hands them to `each` in order.
     pub fn run(&mut self, leaves: &Leaves, mut each: impl FnMut(Number)) {
-        for (id, node) in self.ids.iter().zip(&self.nodes) {
-            self.values[id.index()] = value(node, leaves, &self.values);
-        }
+        run(&self.nodes, &self.steps, leaves, &mut self.values);
         for root in &self.roots {
             each(self.values[root.index()]);
         }
+    }
+}
+
+fn steps(graph: &Graph, schedule: &Schedule, ids: &[Id]) -> Vec<Step> {
+    let step = |&id: &Id| match schedule.plan(id) {
+        None => Step::Node(id),
+        Some(plan) => Step::Loop(Box::new(Repeat {
+            before: steps(graph, schedule, &plan.before),
+            after: steps(graph, schedule, &plan.after),
+            results: results(graph, plan),
+            plan: plan.clone(),
+        })),
+    };
+    ids.iter().map(step).collect()
+}
+
+fn results(graph: &Graph, plan: &Plan) -> Vec<(Id, Id)> {
+    let leaf = |result: &Id| plan.leaf_of(graph, *result);
+    let results = plan.results.iter();
+    results.filter_map(|r| Some((*r, leaf(r)?))).collect()
+}
+
+fn run(nodes: &[Node], steps: &[Step], leaves: &Leaves, values: &mut [Number]) {
+    for step in steps {
+        match step {
+            Step::Node(id) => values[id.index()] = value(&nodes[id.index()], leaves, values),
+            Step::Loop(repeat) => run_loop(nodes, repeat, leaves, values),
+        }
+    }
+}
+
+fn run_loop(nodes: &[Node], repeat: &Repeat, leaves: &Leaves, values: &mut [Number]) {
+    let it = &repeat.plan.it;
+    for state in &it.states {
+        values[state.leaf.index()] = values[state.init.index()];
+    }
+    let count = match values[it.count.index()] {
+        Number::Real(count) if count > f64::from(it.limit) => f64::from(it.limit),
+        Number::Real(count) => count.floor(),
+        _ => 0.0,
+    };
+    let mut next: SmallVec<[Number; 8]> = SmallVec::new();
+    let mut done = 0.0;
+    while done < count {
+        if let Some(counter) = repeat.plan.counter {
+            values[counter.index()] = Number::Real(done);
+        }
+        run(nodes, &repeat.before, leaves, values);
+        if it
+            .until
+            .is_some_and(|u| values[u.index()] == Number::Truth(true))
+        {
+            break;
+        }
+        run(nodes, &repeat.after, leaves, values);
+        next.clear();
+        next.extend(it.states.iter().map(|state| values[state.next.index()]));
+        for (state, &value) in it.states.iter().zip(&next) {
+            values[state.leaf.index()] = value;
+        }
+        done += 1.0;
+    }
+    for (result, leaf) in &repeat.results {
+        values[result.index()] = values[leaf.index()];
     }
 }
 
@@ -70,17 +159,19 @@ fn value(node: &Node, leaves: &Leaves, values: &[Number]) -> Number {
         ),
         Op::Time => Number::Real(leaves.time),
         Op::Pixel => Number::Real(leaves.pixel),
+        Op::Variable(_) | Op::State(..) | Op::Counter(_) | Op::Loop { .. } | Op::Result(_) => {
+            missing
+        }
         Op::Apply(prim) => apply(prim, node, values),
     }
 }
 
 fn apply(prim: Prim, node: &Node, values: &[Number]) -> Number {
-    let operands: smallvec::SmallVec<[Number; 3]> =
-        node.args.iter().map(|a| values[a.index()]).collect();
+    let operands: SmallVec<[Number; 3]> = node.args.iter().map(|a| values[a.index()]).collect();
     table::row(prim)
         .evaluate(prim, &operands)
         .unwrap_or(match node.ty {
-            Ty::Real => Number::Real(f64::NAN),
+            Ty::Real | Ty::Loop => Number::Real(f64::NAN),
             Ty::Complex => Number::Complex(complex(f64::NAN, f64::NAN)),
             Ty::Bool => Number::Truth(false),
         })

@@ -1,5 +1,7 @@
 //! Steps of the productions that build nodes or look at names, and have no syntax of their own.
 
+use std::ops::Range;
+
 use crate::Span;
 use crate::ast::{BinaryOp, Expr, Name, UnaryOp};
 use crate::cursor::{Node, Parser};
@@ -98,11 +100,6 @@ impl Parser<'_> {
         self.error_node(span)
     }
 
-    /// Whether `name in` or `name =` is here.
-    pub(crate) fn binding_follows(&self) -> bool {
-        self.at(TokenKind::Name) && matches!(self.ahead(1), TokenKind::In | TokenKind::Equals)
-    }
-
     /// Whether what is here multiplies what is before it without a sign; complains where a sign is needed.
     pub(crate) fn factor_follows(&mut self) -> bool {
         self.skip_strays();
@@ -127,15 +124,16 @@ impl Parser<'_> {
     /// The locals of the expression that begins at token `start` begin to hold.
     pub(crate) fn bind_locals(&mut self, start: usize) {
         let layout = self.layout;
-        for name in layout.locals(start) {
+        for name in layout.locals(start, 0) {
             self.scope.bind(self.token_text(name));
         }
     }
 
-    /// The locals of the expression that began at token `start` end to hold.
-    pub(crate) fn unbind_locals(&mut self, start: usize) {
+    /// The locals at the tokens `names` of the expression that began at token `start` end to hold.
+    pub(crate) fn unbind_locals(&mut self, start: usize, names: Range<usize>) {
         let layout = self.layout;
-        for name in layout.locals(start) {
+        let ended = layout.locals(start, names.start);
+        for name in ended.take_while(|name| *name < names.end) {
             self.scope.unbind(self.token_text(name));
         }
     }

@@ -14,6 +14,8 @@ pub(crate) struct Parser<'a> {
     pub(crate) scope: Scope<'a>,
     pub(crate) exprs: Exprs,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Names of other notations that have been read as ours.
+    pub(crate) foreign: Vec<Span>,
     /// Bars open in the innermost bracket: whether the next `|` closes.
     pub(crate) bars: u32,
     /// What is being read.
@@ -62,6 +64,7 @@ impl<'a> Parser<'a> {
             scope,
             exprs: Exprs::default(),
             diagnostics: Vec::new(),
+            foreign: Vec::new(),
             bars: 0,
             statement: StatementKind::Formula,
             in_condition: false,

@@ -19,7 +19,8 @@ pub(crate) fn shorten(text: &str) -> String {
     let mut short = String::new();
     let mut blank = false;
     let mut length = 0;
-    for c in text.chars() {
+    // Blanks count too in how far this looks, as there may be millions of them.
+    for c in text.chars().take(100 * LIMIT) {
         if c.is_whitespace() || c.is_control() {
             blank = !short.is_empty();
             continue;
@@ -119,8 +120,6 @@ fn hint(c: char) -> Option<String> {
         '¾' => "write `3/4`",
         '∛' => "write `x^(1/3)`",
         '∜' => "write `x^(1/4)`",
-        '∑' => "write `sum(k in 1..n, term)`",
-        '∏' => "write `product(k in 1..n, term)`",
         '∫' => "write `integral(expr, t, a, b)`",
         '∂' => "write `diff(expr, x)` or `f'(x)`",
         '∇' => "write `grad(f)`",

@@ -117,20 +117,7 @@ pub fn parsing(bytes: &[u8]) -> Result<(), String> {
     if twice != printed {
         return Err(format!("printed once\n{printed}\nprinted twice\n{twice}"));
     }
-    let Some(formatted) = pullback_grammar::format(text, &is_function) else {
-        return Err("a text without errors cannot be formatted".into());
-    };
-    let same = again(&formatted);
-    if same.has_errors() || pullback_grammar::print(&same.file) != printed {
-        return Err(format!(
-            "formatting changes the meaning:\n{formatted}\n{:?}",
-            same.diagnostics
-        ));
-    }
-    if pullback_grammar::format(&formatted, &is_function).as_ref() != Some(&formatted) {
-        return Err(format!("formatting twice changes the text:\n{formatted}"));
-    }
-    Ok(())
+    crate::formatting::tree(text)
 }
 
 /// Says what is wrong with the compiler's answer to a text, if anything; of a program, also with its graph, its

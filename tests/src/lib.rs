@@ -4,6 +4,7 @@
 #[cfg(feature = "gpu")]
 pub mod accuracy;
 pub mod corpus;
+pub mod formatting;
 pub mod holds;
 pub mod mutate;
 pub mod units;

@@ -1,11 +1,16 @@
 //! From the syntax tree to the IR: names, types, and the pictures that a program shows.
 
+mod bounds;
 mod builder;
 mod builtins;
 mod call;
+mod fold;
+mod iteration;
 mod library;
 mod names;
+mod nesting;
 mod operators;
+mod record;
 mod scope;
 mod suggest;
 mod symbols;
@@ -15,6 +20,8 @@ pub use builder::{Builder, Source};
 pub use builtins::{Builtin, builtins};
 pub use library::{LibraryFunction, library_functions};
 pub use names::{check_names, free_variables, not_constant, signature};
+pub use nesting::{MAX_LOOP_NESTING, MAX_STEPS};
+pub use record::Record;
 pub use suggest::{nearest, quoted, shortened};
 pub use symbols::{MAX_PARAMS, Symbols};
 pub use value::Value;
@@ -24,9 +31,13 @@ use crate::table;
 /// Whether a name is a function of the language without being defined in the program.
 #[must_use]
 pub fn is_builtin_function(name: &str) -> bool {
+    hides_builtin(name) || library::by_name(name).is_some()
+}
+
+/// Whether a definition of this name hides what a reader takes to be fixed.
+fn hides_builtin(name: &str) -> bool {
     table::by_name(name).is_some()
         || builtins::by_name(name).is_some()
-        || library::by_name(name).is_some()
         || is_reserved_function(name)
 }
 

@@ -1,6 +1,8 @@
 //! Names: every name that is used must mean something, and no definition may need itself.
 
-use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Local, Name, Setting};
+mod binding;
+
+use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Name, Setting};
 use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -67,7 +69,8 @@ struct Walk<'a, 'd> {
     exprs: &'a Exprs,
     symbols: &'d Symbols<'a>,
     diagnostics: &'d mut Vec<Diagnostic>,
-    scope: Scope<'a, ()>,
+    /// Names that hold here, each with whether it has been used since that was last asked.
+    scope: Scope<'a, bool>,
     /// Locals whose definitions come later.
     pending: Vec<&'a Name>,
     /// Whether free variables are inputs.
@@ -129,7 +132,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.scope = function
             .params
             .iter()
-            .map(|p| (p.name.text.as_str(), ()))
+            .map(|p| (p.name.text.as_str(), false))
             .collect();
         self.definition(&function.name.text, function.body);
         self.scope.truncate(0);
@@ -213,7 +216,14 @@ impl<'a, 'd> Walk<'a, 'd> {
                 otherwise.iter().for_each(|e| self.expr(*e));
             }
             Expr::Where { body, locals } => self.locals(*body, locals),
-            Expr::Series { .. } | Expr::Iterate { .. } | Expr::Integral { .. } => {}
+            Expr::Series { ranges, term, .. } => self.series(ranges, *term),
+            Expr::Iterate {
+                count,
+                states,
+                steps,
+                until,
+            } => self.iteration(*count, states, steps, *until),
+            Expr::Integral { .. } => {}
         }
     }
 
@@ -223,7 +233,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         let depth = self.scope.len();
         for &arg in args.iter().skip(1) {
             if let Expr::Name(name) = &self.exprs[arg] {
-                self.scope.push(&name.text, ());
+                self.scope.push(&name.text, false);
             }
         }
         for &arg in args {
@@ -232,31 +242,6 @@ impl<'a, 'd> Walk<'a, 'd> {
                 self.expr(arg);
             }
         }
-        self.scope.truncate(depth);
-    }
-
-    fn locals(&mut self, body: ExprId, locals: &'a [Local]) {
-        let depth = self.scope.len();
-        let pending = self.pending.len();
-        self.pending
-            .extend(locals.iter().rev().map(|local| &local.name));
-        let mut seen: FxHashMap<&str, Span> = FxHashMap::default();
-        for Local { name, value, .. } in locals {
-            if let Some(problem) = reserved(name) {
-                self.diagnostics.push(problem);
-            }
-            match seen.get(name.text.as_str()) {
-                Some(&first) => self.diagnostics.push(duplicate(name, first)),
-                None => {
-                    seen.insert(&name.text, name.span);
-                }
-            }
-            self.expr(*value);
-            self.pending.pop();
-            self.scope.push(&name.text, ());
-        }
-        self.pending.truncate(pending);
-        self.expr(body);
         self.scope.truncate(depth);
     }
 
@@ -269,7 +254,8 @@ impl<'a, 'd> Walk<'a, 'd> {
 
     fn name(&mut self, name: &'a Name) {
         let text = name.text.as_str();
-        if self.scope.get(text).is_some() {
+        if let Some(used) = self.scope.get_mut(text) {
+            *used = true;
             return;
         }
         if self.symbols.constants.contains_key(text) {
@@ -425,7 +411,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                     callee,
                     given,
                     &function.params.len().to_string(),
-                    &signature(function),
+                    &listed(&[signature(function)]),
                 )
                 .with_related(function.name.span, "defined here");
                 self.diagnostics.push(problem);
@@ -502,14 +488,6 @@ pub fn not_constant(span: Span, what: &str) -> Diagnostic {
         .with_hint("it may use numbers and constants, but no parameters, inputs or `time`")
 }
 
-fn duplicate(name: &Name, first: Span) -> Diagnostic {
-    let message = format!("{} is defined twice", quoted(&name.text));
-    Diagnostic::error("duplicate-definition", name.span, message)
-        .with_label("defined again")
-        .with_related(first, "first defined here")
-        .with_hint("rename one of them")
-}
-
 fn unknown_type(ty: &Name) -> Diagnostic {
     let types = ["real", "complex", "vec2", "vec3", "vec4", "bool"];
     let message = format!("unknown type {}", quoted(&ty.text));
@@ -527,6 +505,20 @@ fn unknown_type(ty: &Name) -> Diagnostic {
         Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),
         None => problem.with_hint("types are real, complex, vec2, vec3, vec4 and bool"),
     }
+}
+
+/// "`a`, `b` or `c`"
+pub fn listed<S: AsRef<str>>(items: &[S]) -> String {
+    let mut out = String::new();
+    for (k, item) in items.iter().enumerate() {
+        let joint = match items.len() - k {
+            _ if k == 0 => "",
+            1 => " or ",
+            _ => ", ",
+        };
+        out.extend([joint, "`", item.as_ref(), "`"]);
+    }
+    out
 }
 
 /// `name(a, b: complex)`
@@ -553,17 +545,11 @@ fn wrong_arity(callee: &Name, given: usize, expected: &str, usage: &str) -> Diag
         ),
     )
     .with_label(format!("called with {given}"))
-    .with_hint(format!("it is written `{usage}`"))
+    .with_hint(format!("it is written {usage}"))
 }
 
 /// For a builtin: what it expects where `given` is wrong, and how it is written.
 fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
-    if let Some(row) = table::by_name(name) {
-        let variadic = matches!(row.prim, crate::ir::Prim::Min | crate::ir::Prim::Max);
-        let arity = row.typing.arity();
-        let fits = given == arity || (variadic && given > arity);
-        return Some(((!fits).then(|| arity.to_string()), row.usage.to_owned()));
-    }
     if let Some(builtin) = builtins::by_name(name) {
         let expected = (!builtin.arity.contains(&given)).then(|| {
             let (lo, hi) = (builtin.arity.start(), builtin.arity.end());
@@ -573,14 +559,28 @@ fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
                 format!("{lo} to {hi}")
             }
         });
-        return Some((expected, builtin.usage.to_owned()));
+        return Some((expected, listed(&[builtin.usage])));
     }
-    let function = library::by_name(name)?;
-    let arity = function.function.params.len();
-    Some((
-        (given != arity).then(|| arity.to_string()),
-        signature(function.function),
-    ))
+    let row = table::by_name(name);
+    let definitions = library::by_name(name).unwrap_or_default();
+    let mut usages: Vec<&str> = definitions.iter().map(|f| f.usage.as_str()).collect();
+    let mut arities: Vec<usize> = definitions.iter().map(|f| f.types.len()).collect();
+    if let Some(row) = row {
+        let variadic = matches!(row.prim, crate::ir::Prim::Min | crate::ir::Prim::Max);
+        let arity = row.typing.arity();
+        arities.push(if variadic { given.max(arity) } else { arity });
+        usages.push(row.usage);
+    }
+    if usages.is_empty() {
+        return None;
+    }
+    arities.sort_unstable();
+    arities.dedup();
+    let expected = (!arities.contains(&given)).then(|| {
+        let counts: Vec<String> = arities.iter().map(usize::to_string).collect();
+        listed(&counts).replace('`', "")
+    });
+    Some((expected, listed(&usages)))
 }
 
 /// Reports definitions that need themselves, and chains of calls that are too long.

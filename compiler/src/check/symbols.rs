@@ -4,7 +4,7 @@ use pullback_grammar::ast::{Constant, File, Function, Item, Name, Param};
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
 
-use super::is_builtin_function;
+use super::hides_builtin;
 use super::suggest::quoted;
 
 /// What each name at the top of a program stands for.
@@ -86,11 +86,12 @@ impl<'a> Symbols<'a> {
     }
 }
 
-/// Reports names that mean something fixed, and warns of definitions that hide a builtin.
+/// Reports names that mean something fixed, and warns of definitions that hide a builtin. Functions of the library
+/// may be hidden: it has many of the names that people give their own, and its own text never sees the program's.
 fn check_definable(name: &Name, is_function: bool, diagnostics: &mut Vec<Diagnostic>) {
     if let Some(problem) = reserved(name) {
         diagnostics.push(problem);
-    } else if is_builtin_function(&name.text) {
+    } else if hides_builtin(&name.text) {
         let kind = if is_function { "function" } else { "value" };
         diagnostics.push(
             Diagnostic::warning(

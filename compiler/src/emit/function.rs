@@ -263,7 +263,7 @@ fn structure(
         let (ty, size) = match evaluation.graph.ty(root) {
             crate::ir::Ty::Complex => (types.vec2, 8),
             crate::ir::Ty::Real => (types.real, 4),
-            crate::ir::Ty::Bool => (types.truth, 4),
+            crate::ir::Ty::Bool | crate::ir::Ty::Loop => (types.truth, 4),
         };
         offset = offset.next_multiple_of(size);
         out.push(StructMember {

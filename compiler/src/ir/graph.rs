@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::{Op, Prim, Ty};
+use super::{Binder, Loop, Op, Prim, Ty, transcribe};
 
 /// Index of a node. Operands have smaller indices than their users.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -38,8 +38,16 @@ pub struct Graph {
     nodes: Vec<Node>,
     ids: FxHashMap<Node, Id>,
     names: FxHashMap<Id, String>,
+    /// Number of states that each binder has given out.
+    pub(super) states_of: Vec<u16>,
+    /// Number of bound variables that were given out.
+    pub(super) variables: u32,
+    /// Leaves of the tangents of states, by state, part and seeds.
+    pub(super) tangent_states: FxHashMap<TangentKey, Id>,
     over_budget: bool,
 }
+
+type TangentKey = (Id, u8, Vec<(Id, Id)>);
 
 impl Graph {
     /// Greatest number of nodes; a formula that needs more is refused.
@@ -84,6 +92,11 @@ impl Graph {
         } else {
             Ok(())
         }
+    }
+
+    /// Marks the budget as used up.
+    pub(super) fn refuse(&mut self) {
+        self.over_budget = true;
     }
 
     /// Adds a node as it is, without simplification, or finds the one that is equal to it. Sums and products
@@ -184,6 +197,9 @@ impl Graph {
     /// Marks the nodes that the roots depend on, themselves included.
     #[must_use]
     pub fn reachable(&self, roots: &[Id]) -> Vec<bool> {
+        if self.has_loops() {
+            return self.reachable_through_loops(roots);
+        }
         let mut seen = vec![false; self.nodes.len()];
         for root in roots {
             seen[root.index()] = true;
@@ -198,26 +214,56 @@ impl Graph {
         seen
     }
 
+    /// [`Self::reachable`] where there are loops: of a loop's states, those that a result or a live state needs.
+    fn reachable_through_loops(&self, roots: &[Id]) -> Vec<bool> {
+        let mut seen = vec![false; self.nodes.len()];
+        let mut loops: FxHashMap<Binder, Vec<Loop>> = FxHashMap::default();
+        let mut stack = roots.to_vec();
+        while let Some(id) = stack.pop() {
+            if std::mem::replace(&mut seen[id.index()], true) {
+                continue;
+            }
+            let node = self.node(id);
+            match node.op {
+                Op::Loop { binder, .. } => {
+                    let Some(it) = self.as_loop(id) else { continue };
+                    stack.push(it.count);
+                    stack.extend(it.until);
+                    for state in it.states.iter().filter(|s| seen[s.leaf.index()]) {
+                        stack.extend([state.init, state.next]);
+                    }
+                    loops.entry(binder).or_default().push(it);
+                }
+                Op::State(binder, _) => {
+                    let states = loops.get(&binder).into_iter().flatten();
+                    for state in states.flat_map(|it| &it.states).filter(|s| s.leaf == id) {
+                        stack.extend([state.init, state.next]);
+                    }
+                }
+                Op::Result(index) => {
+                    stack.extend(node.args.iter().copied());
+                    let it = node.args.first().and_then(|&a| self.as_loop(a));
+                    let leaves = it.iter().flat_map(|it| &it.states).map(|s| s.leaf);
+                    stack.extend(leaves.filter(
+                        |&leaf| matches!(self.node(leaf).op, Op::State(_, k) if k == index),
+                    ));
+                }
+                _ => stack.extend(node.args.iter().copied()),
+            }
+        }
+        seen
+    }
+
     /// A graph with only what the roots depend on, and the roots in it.
     #[must_use]
     pub fn compacted(&self, roots: &[Id]) -> (Self, Vec<Id>) {
-        let live = self.reachable(roots);
         let mut out = Self::new();
         out.nodes.reserve(self.nodes.len());
         out.ids.reserve(self.nodes.len());
-        let mut map: Vec<Option<Id>> = vec![None; self.nodes.len()];
-        for (id, node) in self.ids().zip(&self.nodes) {
-            if !live[id.index()] {
-                continue;
-            }
-            let args: SmallVec<[Id; 3]> = node.args.iter().filter_map(|a| map[a.index()]).collect();
-            let new = out.intern(node.op, node.ty, &args);
-            if let Some(name) = self.name(id) {
-                out.set_name(new, name);
-            }
-            map[id.index()] = Some(new);
-        }
-        let roots = roots.iter().filter_map(|r| map[r.index()]).collect();
+        out.variables = self.variables;
+        let roots = transcribe(self, roots, &mut out, |out, node, args| {
+            out.intern(node.op, node.ty, args)
+        });
         (out, roots)
     }
 }

@@ -4,14 +4,24 @@
 
 mod cost;
 mod graph;
+mod loops;
+mod merge;
 mod op;
 mod powers;
+mod regions;
+mod schedule;
 mod text;
+mod transcribe;
 mod verify;
 
 pub use cost::{Cost, cost};
 pub use graph::{Graph, Id, Node, OverBudget};
-pub use op::{Op, Prim, Ty};
+pub use loops::{Loop, State};
+pub use merge::merge_loops;
+pub use op::{Binder, Op, Prim, Ty};
 pub use powers::expand_powers;
+pub use regions::Regions;
+pub use schedule::{Plan, Schedule};
 pub use text::{ParseError, parse_text, to_text};
+pub use transcribe::transcribe;
 pub use verify::{Invalid, verify};

@@ -9,7 +9,14 @@ pub enum Ty {
     Complex,
     /// A truth value.
     Bool,
+    /// The final states of a loop together; only [`Op::Result`] takes it apart.
+    Loop,
 }
+
+/// Names the leaves that stand for the changing values of a loop inside of its body. Loops that were derived from
+/// one another share their binder, and so those leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Binder(pub(super) u32);
 
 /// What a node computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -26,6 +33,25 @@ pub enum Op {
     Time,
     /// The footprint of a pixel in world units.
     Pixel,
+    /// A bound variable of the calculus; replaced before anything is evaluated or lowered.
+    Variable(u32),
+    /// A state of a loop before a step, inside of the loop's body.
+    State(Binder, u16),
+    /// The number of steps that a loop has done, as a real, inside of the loop's body.
+    Counter(Binder),
+    /// A loop. Operands: the number of steps as a real (rounded down; negative and NaN are none), the condition
+    /// that ends it where there is one, tested before each step; then for each state its leaf, its value at the
+    /// start, and its value after a step.
+    Loop {
+        /// Whose leaves its body uses.
+        binder: Binder,
+        /// No more steps than this are done.
+        limit: u32,
+        /// Whether the second operand is a condition that ends it.
+        until: bool,
+    },
+    /// The final value of the state with this number of the loop that is the operand.
+    Result(u16),
     /// A primitive of the operator table applied to the node's arguments.
     Apply(Prim),
 }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{Graph, Id, Op, Prim, Ty};
+use super::{Graph, Id, Op, Prim, Ty, transcribe};
 
 /// Exponents up to this size become products; larger ones stay calls.
 const MAX_EXPANDED: u32 = 1 << 16;
@@ -20,28 +20,14 @@ pub fn expand_powers<'g>(graph: &'g Graph, roots: &[Id]) -> (Cow<'g, Graph>, Vec
         return (Cow::Borrowed(graph), roots.to_vec());
     }
     let mut out = Graph::new();
-    let mut map = vec![None; graph.nodes().len()];
-    for (id, node) in graph.ids().zip(graph.nodes()) {
-        if !live[id.index()] {
-            continue;
-        }
-        let args: Vec<Id> = node
-            .args
-            .iter()
-            .filter_map(|a: &Id| map[a.index()])
-            .collect();
-        let new = match (node.op, args.as_slice()) {
+    let roots = transcribe(graph, roots, &mut out, |out, node, args| {
+        match (node.op, args) {
             (Op::Apply(Prim::PowInt(n)), &[base]) if n.unsigned_abs() <= MAX_EXPANDED => {
-                power(&mut out, node.ty, base, n)
+                power(out, node.ty, base, n)
             }
-            _ => out.intern(node.op, node.ty, &args),
-        };
-        if let Some(name) = graph.name(id) {
-            out.set_name(new, name);
+            _ => out.intern(node.op, node.ty, args),
         }
-        map[id.index()] = Some(new);
-    }
-    let roots = roots.iter().filter_map(|r| map[r.index()]).collect();
+    });
     (Cow::Owned(out), roots)
 }
 

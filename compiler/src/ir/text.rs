@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use rustc_hash::FxHashMap;
 
-use super::{Graph, Id, Op, Prim, Ty};
+use super::{Binder, Graph, Id, Op, Prim, Ty};
 use crate::table;
 
 /// Writes what the roots depend on, operands before users, and the roots last.
@@ -33,6 +33,7 @@ fn ty_name(ty: Ty) -> &'static str {
         Ty::Real => "real",
         Ty::Complex => "complex",
         Ty::Bool => "bool",
+        Ty::Loop => "loop",
     }
 }
 
@@ -44,6 +45,18 @@ fn mnemonic(op: Op) -> String {
         Op::Param(k) => format!("param {k}"),
         Op::Time => "time".into(),
         Op::Pixel => "pixel".into(),
+        Op::Variable(k) => format!("variable {k}"),
+        Op::State(binder, k) => format!("state {} {k}", binder.0),
+        Op::Counter(binder) => format!("counter {}", binder.0),
+        Op::Loop {
+            binder,
+            limit,
+            until,
+        } => {
+            let word = if until { "until" } else { "loop" };
+            format!("{word} {} {limit}", binder.0)
+        }
+        Op::Result(k) => format!("result {k}"),
         Op::Apply(Prim::PowInt(n)) => format!("powint {n}"),
         Op::Apply(prim) => table::row(prim).mnemonic.into(),
     }
@@ -87,13 +100,17 @@ pub fn parse_text(text: &str) -> Result<(Graph, Vec<Id>), ParseError> {
             "real" => Ty::Real,
             "complex" => Ty::Complex,
             "bool" => Ty::Bool,
-            _ => return Err(fail("real, complex or bool")),
+            "loop" => Ty::Loop,
+            _ => return Err(fail("real, complex, bool or loop")),
         };
         let mut words = body.split_whitespace();
         let op = parse_op(&mut words).ok_or(fail("an operation"))?;
         let mut args = Vec::new();
         for word in words {
             args.push(*ids.get(word).ok_or(fail("an operand defined above"))?);
+        }
+        if let Op::State(binder, k) = op {
+            graph.state(binder, k, ty);
         }
         ids.insert(name.trim(), graph.intern(op, ty, &args));
     }
@@ -109,6 +126,18 @@ fn parse_op<'a>(words: &mut impl Iterator<Item = &'a str>) -> Option<Op> {
         "param" => Op::Param(words.next()?.parse().ok()?),
         "time" => Op::Time,
         "pixel" => Op::Pixel,
+        "variable" => Op::Variable(words.next()?.parse().ok()?),
+        "state" => {
+            let binder = Binder(words.next()?.parse().ok()?);
+            Op::State(binder, words.next()?.parse().ok()?)
+        }
+        "counter" => Op::Counter(Binder(words.next()?.parse().ok()?)),
+        "loop" | "until" => Op::Loop {
+            binder: Binder(words.next()?.parse().ok()?),
+            limit: words.next()?.parse().ok()?,
+            until: word == "until",
+        },
+        "result" => Op::Result(words.next()?.parse().ok()?),
         "powint" => Op::Apply(Prim::PowInt(words.next()?.parse().ok()?)),
         _ => Op::Apply(table::rows().iter().find(|row| row.mnemonic == word)?.prim),
     })

@@ -1,7 +1,7 @@
 //! Writing the body of a naga function: which expressions must be emitted, and when.
 
 use naga::proc::Emitter;
-use naga::{Expression, Function, Handle, Literal, Span, Statement};
+use naga::{Block, Expression, Function, Handle, Literal, LocalVariable, Span, Statement, Type};
 use rustc_hash::FxHashMap;
 
 /// A function whose body is being written.
@@ -11,6 +11,8 @@ pub struct Body {
     pub function: Function,
     emitter: Emitter,
     literals: FxHashMap<u32, Handle<Expression>>,
+    /// Blocks around the one that is being written.
+    outer: Vec<Block>,
 }
 
 impl Body {
@@ -21,6 +23,7 @@ impl Body {
             function,
             emitter: Emitter::default(),
             literals: FxHashMap::default(),
+            outer: Vec::new(),
         }
     }
 
@@ -50,6 +53,51 @@ impl Body {
         let handle = self.declare(Expression::Literal(Literal::F32(value)));
         self.literals.insert(value.to_bits(), handle);
         handle
+    }
+
+    /// Adds a local variable, and gives the pointer to it.
+    pub fn variable(&mut self, name: String, ty: Handle<Type>) -> Handle<Expression> {
+        let variable = LocalVariable {
+            name: Some(name),
+            ty,
+            init: None,
+        };
+        let variable = self
+            .function
+            .local_variables
+            .append(variable, Span::UNDEFINED);
+        self.declare(Expression::LocalVariable(variable))
+    }
+
+    /// Reads a variable here.
+    pub fn load(&mut self, pointer: Handle<Expression>) -> Handle<Expression> {
+        self.emit(Expression::Load { pointer })
+    }
+
+    /// Writes a variable here.
+    pub fn store(&mut self, pointer: Handle<Expression>, value: Handle<Expression>) {
+        self.flush();
+        self.push(Statement::Store { pointer, value });
+    }
+
+    /// What is written next goes into a block of its own, up to [`Self::close`].
+    pub fn open(&mut self) {
+        self.flush();
+        let outer = std::mem::take(&mut self.function.body);
+        self.outer.push(outer);
+    }
+
+    /// Ends the block that was opened last, and gives it.
+    pub fn close(&mut self) -> Block {
+        self.flush();
+        let outer = self.outer.pop().unwrap_or_default();
+        std::mem::replace(&mut self.function.body, outer)
+    }
+
+    /// Adds a statement that is no expression: a branch, a loop.
+    pub fn statement(&mut self, statement: Statement) {
+        self.flush();
+        self.push(statement);
     }
 
     /// Calls a function and gives its result.

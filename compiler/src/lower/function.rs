@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 
 use super::body::Body;
 use super::{LowerError, NagaTypes, Precision};
-use crate::ir::{Graph, Id, Node, Op, Prim, Ty, expand_powers};
+use crate::ir::{Graph, Id, Node, Op, Prim, Schedule, Ty, expand_powers, merge_loops};
 use crate::link::{LinkError, Linker, Provider};
 use crate::table::{self, Gpu};
 
@@ -88,7 +88,8 @@ pub fn lower(
     interface: Interface,
     linker: &mut Linker,
 ) -> Result<Function, LowerError> {
-    let (graph, roots) = expand_powers(graph, roots);
+    let (graph, roots) = merge_loops(graph, roots);
+    let (graph, roots) = expand_powers(&graph, &roots);
     let graph = graph.as_ref();
     let types = NagaTypes::insert(&mut linker.out.types);
     let mut lowering = Lowering {
@@ -105,25 +106,25 @@ pub fn lower(
         depths: vec![0; graph.nodes().len()],
     };
     lowering.declare_leaves();
-    lowering.nodes()?;
+    lowering.schedule(&roots)?;
     let value = lowering.output(&interface.output, &roots)?;
     Ok(lowering.body.finish(value))
 }
 
-struct Lowering<'g, 'l, 's> {
-    graph: &'g Graph,
-    types: NagaTypes,
-    body: Body,
+pub(super) struct Lowering<'g, 'l, 's> {
+    pub(super) graph: &'g Graph,
+    pub(super) types: NagaTypes,
+    pub(super) body: Body,
     inputs: &'g [Argument],
     leaves: Leaves,
     precision: Precision,
     linker: &'l mut Linker<'s>,
     live: Vec<bool>,
     /// Results of functions that are computed in pairs, by pair function and operand.
-    pairs: FxHashMap<(&'static str, Id), Handle<Expression>>,
-    values: Vec<Option<Handle<Expression>>>,
+    pub(super) pairs: FxHashMap<(&'static str, Id), Handle<Expression>>,
+    pub(super) values: Vec<Option<Handle<Expression>>>,
     /// Levels of unnamed expressions below each value.
-    depths: Vec<u8>,
+    pub(super) depths: Vec<u8>,
 }
 
 /// Library functions never call back into generated ones.
@@ -157,16 +158,39 @@ impl Lowering<'_, '_, '_> {
         }
     }
 
-    fn nodes(&mut self) -> Result<(), LowerError> {
+    fn schedule(&mut self, roots: &[Id]) -> Result<(), LowerError> {
         let graph = self.graph;
-        for (id, node) in graph.ids().zip(graph.nodes()) {
-            if !self.live[id.index()] || self.values[id.index()].is_some() {
-                continue;
+        if !graph.has_loops() {
+            for id in graph.ids() {
+                if self.live[id.index()] {
+                    self.compute(id)?;
+                }
             }
-            let value = self.node(node)?;
-            self.values[id.index()] = Some(value);
-            self.name(id, node, value);
+            return Ok(());
         }
+        let schedule = Schedule::new(graph, roots);
+        self.block(&schedule, &schedule.top)
+    }
+
+    /// Writes what is computed in one block, loops included.
+    pub(super) fn block(&mut self, schedule: &Schedule, ids: &[Id]) -> Result<(), LowerError> {
+        for &id in ids {
+            match schedule.plan(id) {
+                Some(plan) => self.repeat(schedule, plan)?,
+                None => self.compute(id)?,
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn compute(&mut self, id: Id) -> Result<(), LowerError> {
+        if self.values[id.index()].is_some() {
+            return Ok(());
+        }
+        let node = self.graph.node(id);
+        let value = self.node(node)?;
+        self.values[id.index()] = Some(value);
+        self.name(id, node, value);
         Ok(())
     }
 
@@ -193,7 +217,7 @@ impl Lowering<'_, '_, '_> {
         self.depths[id.index()] = 0;
     }
 
-    fn value(&self, id: Id) -> Result<Handle<Expression>, LowerError> {
+    pub(super) fn value(&self, id: Id) -> Result<Handle<Expression>, LowerError> {
         self.values[id.index()].ok_or(LowerError::NoForm("an operand that was not lowered"))
     }
 
@@ -216,6 +240,9 @@ impl Lowering<'_, '_, '_> {
             Op::Time => self.clock("time"),
             Op::Pixel => self.clock("pixel"),
             Op::Apply(prim) => self.apply(prim, node),
+            Op::Variable(_) | Op::State(..) | Op::Counter(_) | Op::Loop { .. } | Op::Result(_) => {
+                Err(LowerError::NoForm("a running variable outside of its loop"))
+            }
         }
     }
 
@@ -290,7 +317,7 @@ impl Lowering<'_, '_, '_> {
         }
     }
 
-    fn library(
+    pub(super) fn library(
         &mut self,
         name: &str,
         arguments: Vec<Handle<Expression>>,
@@ -504,11 +531,15 @@ impl Lowering<'_, '_, '_> {
         })
     }
 
-    fn unary(&mut self, op: naga::UnaryOperator, expr: Handle<Expression>) -> Handle<Expression> {
+    pub(super) fn unary(
+        &mut self,
+        op: naga::UnaryOperator,
+        expr: Handle<Expression>,
+    ) -> Handle<Expression> {
         self.body.emit(Expression::Unary { op, expr })
     }
 
-    fn binary(
+    pub(super) fn binary(
         &mut self,
         op: BinaryOperator,
         left: Handle<Expression>,
@@ -517,7 +548,11 @@ impl Lowering<'_, '_, '_> {
         self.body.emit(Expression::Binary { op, left, right })
     }
 
-    fn math(&mut self, fun: MathFunction, args: &[Handle<Expression>]) -> Handle<Expression> {
+    pub(super) fn math(
+        &mut self,
+        fun: MathFunction,
+        args: &[Handle<Expression>],
+    ) -> Handle<Expression> {
         let (arg1, arg2) = (args.get(1).copied(), args.get(2).copied());
         self.body.emit(Expression::Math {
             fun,

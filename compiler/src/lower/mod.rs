@@ -3,6 +3,7 @@
 mod body;
 mod function;
 mod identifier;
+mod repeat;
 mod types;
 
 pub use function::{Argument, Interface, Leaves, Output, lower};

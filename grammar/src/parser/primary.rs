@@ -41,8 +41,11 @@ impl Parser<'_> {
         let primes = self.primes();
         let opens = self.at(TokenKind::LParen);
         match self.role_of(&mut name) {
-            Role::Unknown if opens && is_adjacent && is_conversion(&name.text) => self.primary(),
+            Role::Unknown if opens && is_adjacent && is_conversion(&name.text) => {
+                self.conversion(&name)
+            }
             Role::Function => self.call(name, primes),
+            Role::Unknown if self.is_foreign_loop(&name) => self.foreign_loop(&name),
             Role::Unknown if opens && (is_adjacent || primes > 0) => self.call(name, primes),
             _ => {
                 if primes > 0 {

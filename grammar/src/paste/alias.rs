@@ -3,13 +3,13 @@
 use super::names::{function_of, type_of, value_of};
 use crate::Diagnostic;
 use crate::ast::Name;
-use crate::cursor::Parser;
+use crate::cursor::{Node, Parser};
 use crate::scope::Role;
 use crate::token::TokenKind;
 
 impl Parser<'_> {
     /// What a name stands for; a name that is only known elsewhere becomes ours.
-    pub(crate) fn role_of(&self, name: &mut Name) -> Role {
+    pub(crate) fn role_of(&mut self, name: &mut Name) -> Role {
         let role = self.scope.role(&name.text);
         if role != Role::Unknown {
             return role;
@@ -18,14 +18,26 @@ impl Parser<'_> {
             && let Some(ours) = function_of(&name.text)
             && self.scope.is_builtin(ours)
         {
-            ours.clone_into(&mut name.text);
+            self.rename(name, ours);
             return Role::Function;
         }
         if let Some(ours) = value_of(&name.text) {
-            ours.clone_into(&mut name.text);
+            self.rename(name, ours);
             return Role::Value;
         }
         role
+    }
+
+    /// Gives a name our spelling.
+    fn rename(&mut self, name: &mut Name, ours: &str) {
+        ours.clone_into(&mut name.text);
+        self.foreign.push(name.span);
+    }
+
+    /// What is in the brackets here, without the name of a type before them: `float(x)`.
+    pub(crate) fn conversion(&mut self, name: &Name) -> Node {
+        self.foreign.push(name.span);
+        self.primary()
     }
 
     /// Whether arguments follow, perhaps behind a power.
@@ -58,7 +70,7 @@ impl Parser<'_> {
                     .with_hint("write `atan2(y, x)`"),
                 );
             }
-            "atan2".clone_into(&mut callee.text);
+            self.rename(&mut callee, "atan2");
         }
         callee
     }
@@ -67,7 +79,7 @@ impl Parser<'_> {
     pub(crate) fn bump_type(&mut self) -> Name {
         let mut name = self.bump_name();
         if let Some(ours) = type_of(&name.text) {
-            ours.clone_into(&mut name.text);
+            self.rename(&mut name, ours);
         }
         name
     }

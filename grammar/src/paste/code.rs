@@ -96,6 +96,12 @@ impl Translator<'_> {
             }
             return;
         }
+        let is_open = word.ends_with('_')
+            && touches
+            && matches!(self.ahead(1), TokenKind::LBrace | TokenKind::Command);
+        if !is_open {
+            return self.pass();
+        }
         let word = word.to_owned();
         let span = self.bump();
         self.named(span, &word);

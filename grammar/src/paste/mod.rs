@@ -31,6 +31,8 @@ use names::function_of;
 pub(crate) struct Pasted {
     pub(crate) tokens: Vec<Token>,
     pub(crate) spellings: Spellings,
+    /// Tokens that are not passed on as they are.
+    pub(crate) foreign: Vec<Span>,
     pub(crate) diagnostics: Vec<Diagnostic>,
 }
 
@@ -55,6 +57,7 @@ pub(crate) fn translate(text: &str, tokens: Vec<Token>) -> Pasted {
         tokens,
         facts,
         spellings: Vec::new(),
+        foreign: Vec::new(),
         diagnostics: Vec::new(),
         at: 0,
         last: TokenKind::End,
@@ -74,6 +77,7 @@ pub(crate) fn translate(text: &str, tokens: Vec<Token>) -> Pasted {
     Pasted {
         tokens: translator.out,
         spellings: Spellings(translator.spellings),
+        foreign: translator.foreign,
         diagnostics: translator.diagnostics,
     }
 }
@@ -173,6 +177,7 @@ struct Translator<'a> {
     facts: Facts,
     out: Vec<Token>,
     spellings: Vec<(Span, String)>,
+    foreign: Vec<Span>,
     diagnostics: Vec<Diagnostic>,
     at: usize,
     /// Kind of the token written last.
@@ -237,8 +242,15 @@ impl Translator<'_> {
         self.span_ahead(n).end == self.span_ahead(n + 1).start
     }
 
-    /// Goes past the token here and returns its place.
+    /// Goes past a token of another notation and returns its place.
     fn bump(&mut self) -> Span {
+        let span = self.advance();
+        self.foreign.push(span);
+        span
+    }
+
+    /// Goes past the token here and returns its place.
+    fn advance(&mut self) -> Span {
         let span = self.span();
         if let Some(token) = self.tokens.get(self.at) {
             self.starts_line |= token.starts_line;
@@ -266,16 +278,18 @@ impl Translator<'_> {
     /// Writes the token here as it is.
     fn pass(&mut self) {
         let kind = self.kind();
-        let span = self.bump();
+        let span = self.advance();
         self.emit(kind, span);
         self.follow(kind);
     }
 
     /// Keeps track of the expression that is being read.
     fn follow(&mut self, kind: TokenKind) {
-        use TokenKind::{Bar, Colon, Comma, DotDot, Else, Equals, In, Semicolon, Then, Where};
+        use TokenKind::{
+            Bar, Colon, Comma, DotDot, Else, Equals, In, Semicolon, Then, Until, Where,
+        };
         match kind {
-            Comma | Semicolon | Equals | Where | In | DotDot | Colon | Then | Else => {
+            Comma | Semicolon | Equals | Where | In | DotDot | Colon | Then | Else | Until => {
                 self.level = Level {
                     start: self.out.len(),
                     choices: self.level.choices,
@@ -465,6 +479,9 @@ impl Translator<'_> {
             }
             TokenKind::Dollar | TokenKind::Ampersand => self.stray(),
             TokenKind::Question => self.question(),
+            TokenKind::Colon if self.ahead(1) == TokenKind::Equals => {
+                self.bump();
+            }
             TokenKind::Colon if self.level.choices > 0 => self.otherwise(),
             TokenKind::If if self.is_behind_operand() => self.python_choice(),
             TokenKind::Caret => self.caret(),

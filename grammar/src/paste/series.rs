@@ -81,7 +81,7 @@ impl Translator<'_> {
     fn term_ends(&self) -> bool {
         use TokenKind::{
             Ampersand, And, Colon, Comma, Dollar, DotDot, Else, Equals, Minus, Or, Plus, Question,
-            Semicolon, Then, Where,
+            Semicolon, Then, Until, Where,
         };
         let kind = match self.meaning() {
             Some(Meaning::Token(kind)) => kind,
@@ -99,7 +99,7 @@ impl Translator<'_> {
             || matches!(
                 kind,
                 Ampersand | And | Colon | Comma | Dollar | DotDot | Else | Equals | Or | Question
-                    | Semicolon | Then | Where
+                    | Semicolon | Then | Until | Where
             )
     }
 

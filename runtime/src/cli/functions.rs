@@ -48,8 +48,12 @@ fn entries() -> Vec<Entry> {
         doc: builtin.doc.to_owned(),
     });
     let library = check::library_functions().iter().map(|function| Entry {
-        usage: function.usage.to_owned(),
-        types: "as defined",
+        usage: function.usage.clone(),
+        types: if function.is_generic() {
+            "numbers, vectors by components"
+        } else {
+            "as written"
+        },
         also: Vec::new(),
         doc: function.doc.to_owned(),
     });
