@@ -75,7 +75,12 @@ fn pasted_texts() {
             let again = read(&printed);
             assert_eq!(again.diagnostics, [], "{text}\n{printed}");
             assert_eq!(show_file(&parsed.file), show_file(&again.file), "{printed}");
-            assert_eq!(format(text, &is_function).as_ref(), Some(&printed), "{text}");
+            let formatted = format(text, &is_function).expect("a text without errors");
+            let again = read(&formatted);
+            assert_eq!(show_file(&parsed.file), show_file(&again.file), "{formatted}");
+            assert_eq!(again.diagnostics, [], "{text}\n{formatted}");
+            assert!(!formatted.contains(['\\', '$', '?', '[', ';']), "{formatted}");
+            assert_eq!(format(&formatted, &is_function), Some(formatted), "{text}");
         }
         format!("{}\n{}", printed.trim_end(), complaints(text, &parsed))
     });

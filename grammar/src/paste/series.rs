@@ -22,14 +22,16 @@ impl Translator<'_> {
             (limits.index, limits.lower.is_empty(), limits.upper.is_empty())
         else {
             let hint = format!("write `{name}(k in 1..n, term)`");
-            self.refuse(span, &hint);
+            self.refuse_limits(span, "it is not clear what the index runs through", "expected `_{k=1}^{n}`", hint);
             return;
         };
         if let [only] = limits.upper.as_slice()
             && matches!(only.span.text(self.text), "\\infty" | "∞")
         {
-            let hint = format!("end it where the terms no longer matter: `{name}(k in 1..100, term)`");
-            self.refuse(span.join(only.span), &hint);
+            let hint =
+                format!("end it where the terms no longer matter: `{name}(k in 1..100, term)`");
+            let whole = span.join(only.span);
+            self.refuse_limits(whole, "infinitely many terms", "has no end", hint);
             return;
         }
         self.emit_spelt(TokenKind::Name, span, name);
@@ -55,6 +57,12 @@ impl Translator<'_> {
             let argument = self.shown(written);
             self.complain_unclear(span.join(end), &format!("{name}("), &argument);
         }
+    }
+
+    /// Complains of what stands at a big operator, and leaves a gap in its place.
+    fn refuse_limits(&mut self, span: Span, message: &str, label: &str, hint: String) {
+        self.complain("bad-limits", span, message, label, hint);
+        self.emit(TokenKind::Error, span);
     }
 
     /// Whether the tokens from `start` up to here are one bracket.
@@ -186,7 +194,8 @@ impl Translator<'_> {
         const USUAL: &str = "write `integral(expr, t, a, b)`";
         let limits = self.limits(false);
         if limits.lower.is_empty() || limits.upper.is_empty() {
-            self.refuse(span, "an integral has two ends: write `integral(expr, t, a, b)`");
+            let message = "an integral without ends";
+            self.refuse_limits(span, message, "expected `_a^b`", USUAL.to_owned());
             return;
         }
         self.emit_spelt(TokenKind::Name, span, "integral");
