@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::Span;
 use crate::ast::{BinaryOp, Expr, Name, UnaryOp};
 use crate::cursor::{Node, Parser};
-use crate::scope::FREE_VARIABLES;
+use crate::scope::{FREE_VARIABLES, Role};
 use crate::token::TokenKind;
 
 impl Parser<'_> {
@@ -42,6 +42,12 @@ impl Parser<'_> {
             text: self.spelling(span).to_owned(),
             span,
         }
+    }
+
+    /// What a name of the text stands for here.
+    pub(crate) fn role_of_ours(&mut self, name: &Name) -> Role {
+        let text = self.spelling(name.span);
+        self.scope.role_of_text(text)
     }
 
     /// Goes past the primes here and counts them.

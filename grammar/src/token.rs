@@ -2,6 +2,7 @@
 
 use logos::Logos;
 
+use crate::diagnostic::MAX_DIAGNOSTICS;
 use crate::stray;
 use crate::{Diagnostic, Span};
 
@@ -296,7 +297,10 @@ pub fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
                         tokens.pop();
                     }
                 }
-                diagnostics.push(stray::complaint(culprit, span(place)));
+                // Found in the order of the text: what is not listed need not be made.
+                if diagnostics.len() <= MAX_DIAGNOSTICS {
+                    diagnostics.push(stray::complaint(culprit, span(place)));
+                }
                 kind = stray::stands_for(culprit);
                 tokens.push(Token {
                     kind,

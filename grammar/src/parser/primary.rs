@@ -34,7 +34,7 @@ impl Parser<'_> {
         self.node(expr, span)
     }
 
-    /// `name = NAME | call`
+    /// `name = NAME | call | barred`
     fn name(&mut self) -> Node {
         let mut name = self.bump_name();
         let is_adjacent = name.span.end == self.span().start;
@@ -43,6 +43,9 @@ impl Parser<'_> {
         match self.role_of(&mut name) {
             Role::Unknown if opens && is_adjacent && is_conversion(&name.text) => {
                 self.conversion(&name)
+            }
+            Role::Function if self.at(TokenKind::Bar) && self.form_of(&name).is_none() => {
+                self.barred(name, primes)
             }
             Role::Function => self.call(name, primes),
             Role::Unknown if self.is_foreign_loop(&name) => self.foreign_loop(&name),
@@ -83,7 +86,7 @@ impl Parser<'_> {
     }
 
     /// `bars = "|" expr "|"`
-    fn bars(&mut self) -> Node {
+    pub(crate) fn bars(&mut self) -> Node {
         let opening = self.bump();
         self.bars += 1;
         let mut arg = self.expr();

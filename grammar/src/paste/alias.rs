@@ -10,7 +10,7 @@ use crate::token::TokenKind;
 impl Parser<'_> {
     /// What a name stands for; a name that is only known elsewhere becomes ours.
     pub(crate) fn role_of(&mut self, name: &mut Name) -> Role {
-        let role = self.scope.role(&name.text);
+        let role = self.role_of_ours(name);
         if role != Role::Unknown {
             return role;
         }

@@ -191,7 +191,7 @@ impl Translator<'_> {
                 format!("write `{name}(…)` for a call")
             };
             let span = self.bump();
-            self.diagnostics.push(
+            self.report(
                 Diagnostic::error(
                     "stray-character",
                     span,

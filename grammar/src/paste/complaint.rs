@@ -1,6 +1,7 @@
 //! What is said about other notations.
 
 use super::Translator;
+use crate::diagnostic::MAX_DIAGNOSTICS;
 use crate::stray::{complaint, shorten, stands_for};
 use crate::token::{Token, TokenKind};
 use crate::{Diagnostic, Span};
@@ -14,18 +15,25 @@ impl Translator<'_> {
         label: &str,
         hint: impl Into<String>,
     ) {
-        self.diagnostics.push(
+        self.report(
             Diagnostic::error(code, span, message)
                 .with_label(label)
                 .with_hint(hint),
         );
     }
 
+    /// Adds an error; what is not listed is not kept.
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+        if self.diagnostics.len() <= MAX_DIAGNOSTICS {
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
     /// A sign of another notation in a place where it means nothing.
     pub(super) fn stray(&mut self) {
         let span = self.bump();
         if let Some(culprit) = span.text(self.text).chars().next() {
-            self.diagnostics.push(complaint(culprit, span));
+            self.report(complaint(culprit, span));
             self.emit(stands_for(culprit), span);
         }
     }
@@ -78,7 +86,7 @@ impl Translator<'_> {
         let here = self.last_span().end;
         let message = format!("missing `{close}`");
         let opened = format!("`{}` opened here", shorten(opening.text(self.text)));
-        self.diagnostics.push(
+        self.report(
             Diagnostic::error("missing-closing", Span::new(here, here), message)
                 .with_label(format!("expected `{close}`"))
                 .with_related(opening, opened)

@@ -3,8 +3,9 @@
 #![allow(dead_code)]
 
 pub mod fixture;
+pub mod generate;
 
-use pullback_grammar::ast::{Expr, ExprId, File, Item, Range};
+use pullback_grammar::ast::{Expr, ExprId, File, Item, Name, Range};
 use pullback_grammar::token::{TokenKind, tokenize};
 use pullback_grammar::{Parsed, Span, parse};
 
@@ -219,6 +220,14 @@ pub fn check_structure(text: &str, parsed: &Parsed) {
             "{inner:?} not in {outer:?} of {text:?}"
         );
     };
+    let named = |outer: Span, name: &Name| {
+        within(outer, name.span);
+        let written = name.span.text(text);
+        assert!(
+            written == name.text || is_name(&name.text),
+            "{written:?} is no name in {text:?}"
+        );
+    };
     let file = &parsed.file;
     for (id, expr, span) in file.exprs.iter() {
         inside(span);
@@ -229,17 +238,25 @@ pub fn check_structure(text: &str, parsed: &Parsed) {
         match expr {
             Expr::Name(name)
             | Expr::Call { callee: name, .. }
-            | Expr::Member { field: name, .. } => {
-                within(span, name.span);
-                let written = name.span.text(text);
-                assert!(
-                    written == name.text || is_name(&name.text),
-                    "{written:?} is no name in {text:?}"
-                );
-            }
+            | Expr::Member { field: name, .. } => named(span, name),
             Expr::Error => assert!(parsed.has_errors(), "an unreported error in {text:?}"),
             Expr::Compare { rest, .. } => assert!(!rest.is_empty()),
             Expr::Vector(items) => assert!((2..=4).contains(&items.len())),
+            Expr::Series { ranges, .. } => {
+                assert!(!ranges.is_empty());
+                ranges.iter().for_each(|range| named(span, &range.name));
+            }
+            Expr::Iterate { states, steps, .. } => {
+                assert!(!states.is_empty() && states.len() == steps.len());
+                states.iter().for_each(|state| named(span, &state.0));
+            }
+            Expr::Integral { range, .. } => named(span, &range.name),
+            Expr::Where { locals, .. } => {
+                for local in locals {
+                    named(span, &local.name);
+                    local.field.iter().for_each(|field| named(span, field));
+                }
+            }
             _ => {}
         }
     }
