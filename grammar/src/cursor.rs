@@ -264,6 +264,10 @@ impl<'a> Parser<'a> {
             // the tokens of other notations may have changed their order
             span = span.join(self.exprs.span(child));
         });
+        if let Expr::Where { locals, .. } = &expr {
+            let names = locals.iter().map(|local| local.name.span);
+            span = names.fold(span, Span::join);
+        }
         if usize::from(height) > MAX_NESTING {
             self.complain_too_deep(span);
             return self.error_node(span);

@@ -116,7 +116,7 @@ impl Translator<'_> {
         match self.kind() {
             TokenKind::LParen | TokenKind::LBrace | TokenKind::LSquare | TokenKind::Slash => true,
             TokenKind::Name => self.touches(0) && self.ahead(1) == TokenKind::LParen,
-            TokenKind::Bar => !self.level.in_bars,
+            TokenKind::Bar => self.level.bars == 0,
             TokenKind::Star => !has_variable,
             TokenKind::Command => match self.meaning() {
                 Some(Meaning::Token(TokenKind::Slash) | Meaning::OpeningBar(_)) => true,

@@ -94,13 +94,28 @@ impl Translator<'_> {
         self.follow(TokenKind::Else);
     }
 
+    /// Whether a condition stands behind the two bars here: a comparison, before the next bar.
+    fn compares_ahead(&self) -> bool {
+        const FARTHEST: usize = 64;
+        let kinds = (2..FARTHEST).map(|n| self.ahead(n));
+        kinds
+            .take_while(|kind| {
+                !matches!(
+                    kind,
+                    TokenKind::Bar | TokenKind::Question | TokenKind::Semicolon | TokenKind::End
+                )
+            })
+            .any(|kind| kind.is_comparison())
+    }
+
     /// A bar; two side by side between conditions are `or`.
     pub(super) fn bar(&mut self) {
         let is_or = self.ahead(1) == TokenKind::Bar
             && self.touches(0)
             && self.level.compares
             && self.is_behind_operand()
-            && !self.level.in_bars;
+            && self.level.bars == 0
+            && self.compares_ahead();
         if !is_or {
             self.pass();
             return;

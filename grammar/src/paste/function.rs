@@ -93,7 +93,7 @@ impl Translator<'_> {
             _ if self.statement_begins() => {}
             TokenKind::LParen => self.item(),
             TokenKind::LBrace => self.group(),
-            TokenKind::Bar if !self.level.in_bars => self.in_bars(span),
+            TokenKind::Bar if self.level.bars == 0 => self.in_bars(span),
             TokenKind::Command if self.opens_bracket(0) => self.item(),
             _ => self.bare(span, name),
         }
@@ -157,7 +157,7 @@ impl Translator<'_> {
         if self.kind() == TokenKind::Bar {
             self.pass();
         } else {
-            self.level.in_bars = false;
+            self.level.bars = self.level.bars.saturating_sub(1);
         }
         self.emit(TokenKind::RParen, self.last_span());
     }

@@ -31,6 +31,9 @@ impl Translator<'_> {
             Some(Meaning::Name(name)) => self.letter(span, name),
             Some(Meaning::Function(name)) => self.function(span, name),
             Some(Meaning::Token(kind)) => {
+                if kind == TokenKind::Bar {
+                    self.count_bar();
+                }
                 self.emit(kind, span);
                 self.follow(kind);
             }

@@ -157,8 +157,10 @@ struct Level {
     choices: usize,
     /// Whether the expression compares something.
     compares: bool,
-    /// Whether a bar is open.
-    in_bars: bool,
+    /// Bars that are open.
+    bars: usize,
+    /// Whether the last bar has closed.
+    has_closed: bool,
 }
 
 /// Brackets open around a place, by kind: a closing one that fits none is left to the complaints of the parser.
@@ -278,6 +280,9 @@ impl Translator<'_> {
     /// Writes the token here as it is.
     fn pass(&mut self) {
         let kind = self.kind();
+        if kind == TokenKind::Bar {
+            self.count_bar();
+        }
         let span = self.advance();
         self.emit(kind, span);
         self.follow(kind);
@@ -286,20 +291,31 @@ impl Translator<'_> {
     /// Keeps track of the expression that is being read.
     fn follow(&mut self, kind: TokenKind) {
         use TokenKind::{
-            Bar, Colon, Comma, DotDot, Else, Equals, In, Semicolon, Then, Until, Where,
+            Colon, Comma, DotDot, Else, Equals, In, Semicolon, Then, Until, Where,
         };
         match kind {
             Comma | Semicolon | Equals | Where | In | DotDot | Colon | Then | Else | Until => {
                 self.level = Level {
                     start: self.out.len(),
                     choices: self.level.choices,
+                    bars: self.level.bars,
                     ..Level::default()
                 };
             }
-            Bar => self.level.in_bars = !self.level.in_bars,
             _ if kind.is_comparison() => self.level.compares = true,
             _ => {}
         }
+    }
+
+    /// A bar is here: it closes where an operator may stand and one is open.
+    fn count_bar(&mut self) {
+        let closes = self.level.bars > 0 && self.is_behind_operand();
+        if closes {
+            self.level.bars -= 1;
+        } else {
+            self.level.bars += 1;
+        }
+        self.level.has_closed = closes;
     }
 
     /// What `read` writes, instead of writing it here.
@@ -327,7 +343,7 @@ impl Translator<'_> {
             Bang, Bar, Imaginary, Name, Number, Prime, RBrace, RParen, RSquare, Superscript,
         };
         match self.last {
-            Bar => !self.level.in_bars,
+            Bar => self.level.has_closed,
             kind => matches!(
                 kind,
                 Number | Imaginary | Name | RParen | RBrace | RSquare | Superscript | Bang | Prime

@@ -103,7 +103,7 @@ impl Translator<'_> {
         is_sign
             || kind.is_comparison()
             || (kind == TokenKind::Name && self.is_differential(0))
-            || (kind == TokenKind::Bar && self.level.in_bars)
+            || (kind == TokenKind::Bar && self.level.bars > 0)
             || matches!(
                 kind,
                 Ampersand | And | Colon | Comma | Dollar | DotDot | Else | Equals | Or | Question
