@@ -77,9 +77,16 @@ fn pasted_texts() {
             assert_eq!(show_file(&parsed.file), show_file(&again.file), "{printed}");
             let formatted = format(text, &is_function).expect("a text without errors");
             let again = read(&formatted);
-            assert_eq!(show_file(&parsed.file), show_file(&again.file), "{formatted}");
+            assert_eq!(
+                show_file(&parsed.file),
+                show_file(&again.file),
+                "{formatted}"
+            );
             assert_eq!(again.diagnostics, [], "{text}\n{formatted}");
-            assert!(!formatted.contains(['\\', '$', '?', '[', ';']), "{formatted}");
+            assert!(
+                !formatted.contains(['\\', '$', '?', '[', ';']),
+                "{formatted}"
+            );
             assert_eq!(format(&formatted, &is_function), Some(formatted), "{text}");
         }
         format!("{}\n{}", printed.trim_end(), complaints(text, &parsed))

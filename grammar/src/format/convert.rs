@@ -21,8 +21,8 @@ impl<'a> Foreign<'a> {
     pub(super) fn extent(&mut self, span: Span, next: u32) -> Option<Span> {
         let mut whole = None;
         while let Some((&place, rest)) = self.places.split_first() {
-            let belongs = place.start < span.end
-                || (place.start < next && !self.is_apart(span.end, place));
+            let belongs =
+                place.start < span.end || (place.start < next && !self.is_apart(span.end, place));
             if !belongs {
                 break;
             }

@@ -96,7 +96,9 @@ fn write(text: &str, reading: &Reading, convert: &dyn Fn(&Item) -> String) -> St
             others.split_at(others.partition_point(|comment| comment.start < span.end));
         rest = others;
         if converted.is_some() {
-            inside.iter().for_each(|comment| page.comment_alone(*comment));
+            inside
+                .iter()
+                .for_each(|comment| page.comment_alone(*comment));
             let lines = convert(item);
             let has_sign = lines.starts_with(['-', '+']);
             page.statement(&lines, span, has_sign);

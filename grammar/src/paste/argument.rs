@@ -49,17 +49,19 @@ impl Translator<'_> {
                 let is_call = self.ahead(n + 1) == TokenKind::LParen && self.touches(n);
                 !is_call && !self.is_differential(n) && self.ahead(n + 1) != TokenKind::Equals
             }
-            TokenKind::Command => matches!(
-                self.meaning_ahead(n),
-                Some(
-                    Meaning::Name(_)
-                        | Meaning::Fraction
-                        | Meaning::Root
-                        | Meaning::Accent(_)
-                        | Meaning::Font
-                        | Meaning::Opening(..)
-                )
-            ) && !self.is_differential(n),
+            TokenKind::Command => {
+                matches!(
+                    self.meaning_ahead(n),
+                    Some(
+                        Meaning::Name(_)
+                            | Meaning::Fraction
+                            | Meaning::Root
+                            | Meaning::Accent(_)
+                            | Meaning::Font
+                            | Meaning::Opening(..)
+                    )
+                ) && !self.is_differential(n)
+            }
             _ => false,
         }
     }

@@ -43,7 +43,10 @@ impl Translator<'_> {
         let mut value = self.capture(|this| {
             this.until(|this| this.kind() == TokenKind::Ampersand || this.ends_row());
         });
-        if value.last().is_some_and(|last| last.kind == TokenKind::Comma) {
+        if value
+            .last()
+            .is_some_and(|last| last.kind == TokenKind::Comma)
+        {
             value.pop();
         }
         let mark = self.span();
@@ -104,12 +107,15 @@ impl Translator<'_> {
     fn is_otherwise(&self) -> bool {
         let is_it = |word: &str| matches!(word, "otherwise" | "else" | "elsewhere" | "sonst");
         self.text_word().is_some_and(is_it)
-            || is_it(self.word_ahead(0))
-                && matches!(self.kind(), TokenKind::Name | TokenKind::Else)
+            || is_it(self.word_ahead(0)) && matches!(self.kind(), TokenKind::Name | TokenKind::Else)
     }
 
     fn bump_word(&mut self) -> Span {
-        let length = if self.kind() == TokenKind::Command { 4 } else { 1 };
+        let length = if self.kind() == TokenKind::Command {
+            4
+        } else {
+            1
+        };
         let mut span = self.span();
         for _ in 0..length {
             span = span.join(self.bump());
@@ -125,7 +131,10 @@ fn as_condition(mut tokens: Vec<Token>) -> Vec<Token> {
             token.kind = TokenKind::EqualEqual;
         }
     }
-    if tokens.last().is_some_and(|last| last.kind == TokenKind::Comma) {
+    if tokens
+        .last()
+        .is_some_and(|last| last.kind == TokenKind::Comma)
+    {
         tokens.pop();
     }
     tokens

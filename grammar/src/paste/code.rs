@@ -65,24 +65,16 @@ impl Translator<'_> {
 
     /// A name, without the library that it is taken from.
     pub(super) fn name(&mut self) {
-        let word = self.word_ahead(0);
-        let touches = self.touches(0);
-        if touches && self.ahead(1) == TokenKind::Dot && is_namespace(word) {
-            let is_own = self.facts.values.contains(word);
-            if !is_own && self.touches(1) {
-                return self.of_library();
-            }
-        }
-        if touches
-            && matches!(word, "std" | "glm")
-            && self.ahead(1) == TokenKind::Colon
-            && self.ahead(2) == TokenKind::Colon
-            && self.ahead(3) == TokenKind::Name
-        {
+        while self.is_qualified() {
             for _ in 0..3 {
                 self.bump();
             }
-            return self.name();
+        }
+        let word = self.word_ahead(0);
+        let touches = self.touches(0);
+        let is_library = self.ahead(1) == TokenKind::Dot && is_namespace(word);
+        if is_library && !self.facts.values.contains(word) {
+            return self.of_library();
         }
         let is_vector = matches!(word, "vec2" | "vec3" | "vec4")
             && self.ahead(1) == TokenKind::Less
@@ -107,14 +99,28 @@ impl Translator<'_> {
         self.named(span, &word);
     }
 
+    /// Whether `std::` and a name are here.
+    fn is_qualified(&self) -> bool {
+        matches!(self.word_ahead(0), "std" | "glm")
+            && self.ahead(1) == TokenKind::Colon
+            && self.ahead(2) == TokenKind::Colon
+            && self.ahead(3) == TokenKind::Name
+    }
+
     /// `np.sin`, `Math.PI`; the name and the point are here.
     fn of_library(&mut self) {
         let is_numpy = matches!(self.word_ahead(0), "np" | "numpy" | "jnp");
         if self.ahead(2) == TokenKind::Where && self.ahead(3) == TokenKind::LParen {
             return self.numpy_where();
         }
-        if self.ahead(2) != TokenKind::Name {
-            return self.pass();
+        match self.ahead(2) {
+            TokenKind::Name => {}
+            TokenKind::Command => {
+                self.bump();
+                self.bump();
+                return;
+            }
+            _ => return self.pass(),
         }
         self.bump();
         self.bump();

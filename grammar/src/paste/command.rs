@@ -192,9 +192,7 @@ fn refused(name: &str) -> Option<&'static str> {
         "lim" => "there are no limits; write the value itself",
         "iint" | "iiint" | "oint" => "write one `integral(expr, t, a, b)` inside of another",
         "ldots" | "dots" | "cdots" => "write `sum(k in 1..n, term)` or `product(k in 1..n, term)`",
-        "to" | "rightarrow" | "mapsto" | "Rightarrow" => {
-            "write `name(x) = …` to define a function"
-        }
+        "to" | "rightarrow" | "mapsto" | "Rightarrow" => "write `name(x) = …` to define a function",
         "in" => "write comparisons, as in `0 <= x <= 1`",
         "langle" | "rangle" => "write `(a, b)` for a vector, `dot(a, b)` for the inner product",
         "approx" | "simeq" | "sim" => "write `|a - b| < 1e-3`, or how near you want it",

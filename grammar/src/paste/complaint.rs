@@ -22,9 +22,9 @@ impl Translator<'_> {
         );
     }
 
-    /// Adds an error; what is not listed is not kept.
+    /// Adds an error, unless the statement is too deep anyway; what is not listed is not kept.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
-        if self.diagnostics.len() <= MAX_DIAGNOSTICS {
+        if !self.has_given_up && self.diagnostics.len() <= MAX_DIAGNOSTICS {
             self.diagnostics.push(diagnostic);
         }
     }
@@ -96,7 +96,9 @@ impl Translator<'_> {
 
     /// Tokens of the output as text of this language, short.
     pub(super) fn shown(&self, tokens: &[Token]) -> String {
-        use TokenKind::{Bang, Caret, Comma, Dot, DotDot, LParen, Name, Number, RParen, Superscript};
+        use TokenKind::{
+            Bang, Caret, Comma, Dot, DotDot, LParen, Name, Number, RParen, Superscript,
+        };
         // The spelling is looked up here and not in a sorted table: only a few of the latest are asked for.
         const LIMIT: usize = 24;
         let mut out = String::new();

@@ -129,7 +129,8 @@ impl Translator<'_> {
                 body += 3;
             }
         }
-        let is_python = self.ahead(body) == TokenKind::Colon && self.word_ahead(body + 1) == "return";
+        let is_python =
+            self.ahead(body) == TokenKind::Colon && self.word_ahead(body + 1) == "return";
         match self.ahead(body) {
             TokenKind::Equals => self.skip(words),
             TokenKind::Colon if is_python => {
@@ -329,8 +330,8 @@ impl Translator<'_> {
             end += 1;
         }
         let colon = usize::from(self.ahead(end + 1) == TokenKind::Colon);
-        let is_definition =
-            self.ahead(end) == TokenKind::RSquare && self.ahead(end + 1 + colon) == TokenKind::Equals;
+        let is_definition = self.ahead(end) == TokenKind::RSquare
+            && self.ahead(end + 1 + colon) == TokenKind::Equals;
         if !is_definition {
             return;
         }

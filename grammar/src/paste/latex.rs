@@ -449,7 +449,11 @@ impl Translator<'_> {
         let end = if is_end(self) {
             self.bump()
         } else {
-            let missing = if close == "\\right" { "\\right)" } else { close };
+            let missing = if close == "\\right" {
+                "\\right)"
+            } else {
+                close
+            };
             self.complain_open_group(opening, missing);
             self.last_span()
         };
@@ -487,8 +491,8 @@ impl Translator<'_> {
     /// `{…}` behind `^`: brackets, which a number does without.
     pub(super) fn exponent(&mut self) {
         let signs = usize::from(self.ahead(1) == TokenKind::Minus);
-        let is_number =
-            self.ahead(1 + signs) == TokenKind::Number && self.ahead(2 + signs) == TokenKind::RBrace;
+        let is_number = self.ahead(1 + signs) == TokenKind::Number
+            && self.ahead(2 + signs) == TokenKind::RBrace;
         if !is_number {
             self.group();
             return;

@@ -24,8 +24,8 @@ use crate::layout::{definition_begins, goes_on, wants_more};
 use crate::token::{Token, TokenKind};
 use crate::{Diagnostic, Span};
 
-pub(crate) use names::is_conversion;
 use names::function_of;
+pub(crate) use names::is_conversion;
 
 /// The tokens of a text in this language.
 pub(crate) struct Pasted {
@@ -66,6 +66,7 @@ pub(crate) fn translate(text: &str, tokens: Vec<Token>) -> Pasted {
         closers: Closers::default(),
         depth: 0,
         environments: 0,
+        has_given_up: false,
         is_endless: false,
         integrals: 0,
         bracketed: HashSet::new(),
@@ -191,6 +192,8 @@ struct Translator<'a> {
     depth: usize,
     /// Environments such as `aligned` open here, in which `&` and `\\` are layout.
     environments: usize,
+    /// Whether something in this statement was too deep.
+    has_given_up: bool,
     /// Whether no `\end` is to come.
     is_endless: bool,
     /// Integrals whose `dx` is still to come.
@@ -290,9 +293,7 @@ impl Translator<'_> {
 
     /// Keeps track of the expression that is being read.
     fn follow(&mut self, kind: TokenKind) {
-        use TokenKind::{
-            Colon, Comma, DotDot, Else, Equals, In, Semicolon, Then, Until, Where,
-        };
+        use TokenKind::{Colon, Comma, DotDot, Else, Equals, In, Semicolon, Then, Until, Where};
         match kind {
             Comma | Semicolon | Equals | Where | In | DotDot | Colon | Then | Else | Until => {
                 self.level = Level {
@@ -358,6 +359,13 @@ impl Translator<'_> {
                 self.begin_statement();
             }
             self.item();
+            if std::mem::take(&mut self.has_given_up) {
+                // what was too deep may have been left out: the parser is to meet it all the same
+                let place = self.last_span();
+                for _ in 0..=MAX_NESTING {
+                    self.emit(TokenKind::LParen, place);
+                }
+            }
         }
     }
 
@@ -459,6 +467,7 @@ impl Translator<'_> {
 
     /// Passes the rest of the statement on.
     fn give_up(&mut self) {
+        self.has_given_up = true;
         self.emit(TokenKind::LParen, self.span());
         while self.kind() != TokenKind::End {
             let starts_line = self.tokens.get(self.at).is_some_and(|t| t.starts_line);

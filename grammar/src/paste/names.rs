@@ -157,8 +157,5 @@ pub(super) fn is_defining_word(word: &str) -> bool {
 
 /// Whether definitions of functions begin with this word elsewhere.
 pub(super) fn is_function_word(word: &str) -> bool {
-    matches!(
-        word,
-        "def" | "define" | "fn" | "fun" | "func" | "function"
-    )
+    matches!(word, "def" | "define" | "fn" | "fun" | "func" | "function")
 }

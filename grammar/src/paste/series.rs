@@ -18,11 +18,18 @@ impl Translator<'_> {
     /// A sum or product, as `sum(k in 1..n, term)`.
     pub(super) fn series(&mut self, span: Span, name: &'static str) {
         let limits = self.limits(true);
-        let (Some(index), false, false) =
-            (limits.index, limits.lower.is_empty(), limits.upper.is_empty())
-        else {
+        let (Some(index), false, false) = (
+            limits.index,
+            limits.lower.is_empty(),
+            limits.upper.is_empty(),
+        ) else {
             let hint = format!("write `{name}(k in 1..n, term)`");
-            self.refuse_limits(span, "it is not clear what the index runs through", "expected `_{k=1}^{n}`", hint);
+            self.refuse_limits(
+                span,
+                "it is not clear what the index runs through",
+                "expected `_{k=1}^{n}`",
+                hint,
+            );
             return;
         };
         if let [only] = limits.upper.as_slice()
@@ -99,15 +106,30 @@ impl Translator<'_> {
             _ => self.kind(),
         };
         let is_sign = matches!(kind, Plus | Minus)
-            && !matches!(self.last, TokenKind::Comma | TokenKind::Caret | TokenKind::Star | TokenKind::Slash);
+            && !matches!(
+                self.last,
+                TokenKind::Comma | TokenKind::Caret | TokenKind::Star | TokenKind::Slash
+            );
         is_sign
             || kind.is_comparison()
             || (kind == TokenKind::Name && self.is_differential(0))
             || (kind == TokenKind::Bar && self.level.bars > 0)
             || matches!(
                 kind,
-                Ampersand | And | Colon | Comma | Dollar | DotDot | Else | Equals | Or | Question
-                    | Semicolon | Then | Until | Where
+                Ampersand
+                    | And
+                    | Colon
+                    | Comma
+                    | Dollar
+                    | DotDot
+                    | Else
+                    | Equals
+                    | Or
+                    | Question
+                    | Semicolon
+                    | Then
+                    | Until
+                    | Where
             )
     }
 
