@@ -215,7 +215,7 @@ impl Translator<'_> {
                 }
                 if this.word_ahead(0) == "return" {
                     this.bump();
-                    value = this.capture(Self::to_semicolon);
+                    value = this.capture(Self::until_semicolon);
                     break;
                 }
                 if !this.assigns() {
@@ -276,7 +276,7 @@ impl Translator<'_> {
         self.starts_line = false;
     }
 
-    fn to_semicolon(&mut self) {
+    fn until_semicolon(&mut self) {
         self.until(|this| this.kind() == TokenKind::Semicolon);
     }
 
@@ -313,13 +313,13 @@ impl Translator<'_> {
         let sign = (self.kind() != TokenKind::Equals).then(|| (self.kind(), self.bump()));
         self.pass();
         let Some((sign, place)) = sign else {
-            return self.to_semicolon();
+            return self.until_semicolon();
         };
         let target: Vec<Token> = self.tokens.get(name..end).unwrap_or_default().to_vec();
         self.paste(target);
         self.emit(sign, place);
         self.emit(TokenKind::LParen, place);
-        self.to_semicolon();
+        self.until_semicolon();
         self.emit(TokenKind::RParen, self.last_span());
     }
 
