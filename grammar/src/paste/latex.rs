@@ -67,12 +67,15 @@ impl Translator<'_> {
         }
     }
 
-    /// Complains of a command, and leaves a gap in its place and that of its scripts.
+    /// Complains of a command, and leaves a gap in its place and that of its scripts and groups.
     pub(super) fn refuse(&mut self, span: Span, hint: &str) {
         self.complain_command(span, hint);
         self.emit(TokenKind::Error, span);
         let count = self.diagnostics.len();
         self.limits(false);
+        while self.kind() == TokenKind::LBrace && self.follows() {
+            self.capture(Self::group);
+        }
         self.diagnostics.truncate(count);
     }
 
@@ -145,6 +148,8 @@ impl Translator<'_> {
                     if self.kind() == TokenKind::LBrace {
                         self.capture(Self::group);
                     }
+                    self.emit(TokenKind::Error, whole);
+                    return;
                 }
             }
         }

@@ -39,6 +39,8 @@ impl Translator<'_> {
                 format!("end it where the terms no longer matter: `{name}(k in 1..100, term)`");
             let whole = span.join(only.span);
             self.refuse_limits(whole, "infinitely many terms", "has no end", hint);
+            // the index in the term has no meaning now
+            self.capture(|this| this.deeper(|this| this.until(Self::term_ends)));
             return;
         }
         self.emit_spelt(TokenKind::Name, span, name);
