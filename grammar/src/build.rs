@@ -98,11 +98,6 @@ impl Parser<'_> {
         self.error_node(span)
     }
 
-    /// Whether `name in` or `name =` is here.
-    pub(crate) fn binding_follows(&self) -> bool {
-        self.at(TokenKind::Name) && matches!(self.ahead(1), TokenKind::In | TokenKind::Equals)
-    }
-
     /// Whether what is here multiplies what is before it without a sign; complains where a sign is needed.
     pub(crate) fn factor_follows(&mut self) -> bool {
         self.skip_strays();

@@ -41,6 +41,9 @@ pub(crate) struct Layout {
     /// For each local of a `where`, the index of the first token of the expression in which it holds and that of
     /// its name; sorted.
     locals: Vec<(usize, usize)>,
+    /// For each bracket whose second item is a bare name, the index of the first token inside and that of the name;
+    /// sorted.
+    variables: Vec<(usize, usize)>,
 }
 
 impl Layout {
@@ -52,13 +55,31 @@ impl Layout {
             .take_while(move |local| local.0 == start)
             .map(|local| local.1)
     }
+
+    /// The name token of `t` in `(expr, t, …)`, where the bracket's first token is `start`.
+    pub(crate) fn variable(&self, start: usize) -> Option<usize> {
+        let found = self.variables.binary_search_by_key(&start, |entry| entry.0);
+        found
+            .ok()
+            .and_then(|index| self.variables.get(index))
+            .map(|entry| entry.1)
+    }
 }
 
 /// A bracket that is open, or the statement itself.
 struct Level {
     open: TokenKind,
+    start: usize,
     expression: usize,
     has_where: bool,
+}
+
+/// What a token tells of names that hold somewhere.
+enum Holds {
+    /// The beginning of an expression and the name of its local.
+    Local(usize, usize),
+    /// The beginning of a bracket's inside and the name that is its second item.
+    Variable(usize, usize),
 }
 
 /// The brackets open at a place.
@@ -87,12 +108,15 @@ pub(crate) fn layout(tokens: &[Token]) -> Layout {
             start = at;
             levels = Levels::new(start);
         }
-        if let Some(local) = levels.read(tokens, at) {
-            layout.locals.push(local);
+        match levels.read(tokens, at) {
+            Some(Holds::Local(expression, name)) => layout.locals.push((expression, name)),
+            Some(Holds::Variable(inside, name)) => layout.variables.push((inside, name)),
+            None => {}
         }
     }
     layout.close(tokens, start, tokens.len());
     layout.locals.sort_unstable();
+    layout.variables.sort_unstable();
     layout
 }
 
@@ -117,6 +141,7 @@ impl Levels {
         Self {
             stack: vec![Level {
                 open: TokenKind::End,
+                start,
                 expression: start,
                 has_where: false,
             }],
@@ -130,11 +155,11 @@ impl Levels {
         self.stack.len() <= 1
     }
 
-    /// Takes in the token at `at`; returns the local that it names, with the beginning of its expression.
-    fn read(&mut self, tokens: &[Token], at: usize) -> Option<(usize, usize)> {
+    /// Takes in the token at `at`.
+    fn read(&mut self, tokens: &[Token], at: usize) -> Option<Holds> {
         let kind = kind(tokens, at);
-        let names_local =
-            kind == TokenKind::Name && self::kind(tokens, at + 1) == TokenKind::Equals;
+        let is_field = at > 0 && self::kind(tokens, at - 1) == TokenKind::Dot;
+        let names_local = defines_name(tokens, at) && !is_field;
         let outside = self.is_outside();
         match kind {
             TokenKind::LParen | TokenKind::LBrace => self.open(kind, at),
@@ -145,13 +170,17 @@ impl Levels {
                 match kind {
                     TokenKind::Where => level.has_where = true,
                     TokenKind::Name if names_local && level.has_where => {
-                        return Some((level.expression, at));
+                        return Some(Holds::Local(level.expression, at));
                     }
                     TokenKind::Comma if !(level.has_where && local_begins(tokens, at + 1)) => {
+                        let is_first = level.expression == level.start && !outside;
                         level.expression = at + 1;
                         level.has_where = false;
+                        if is_first && is_bare_name(tokens, at + 1) {
+                            return Some(Holds::Variable(level.start, at + 1));
+                        }
                     }
-                    TokenKind::Colon => {
+                    TokenKind::Colon | TokenKind::Until => {
                         level.expression = at + 1;
                         level.has_where = false;
                     }
@@ -171,6 +200,7 @@ impl Levels {
         }
         self.stack.push(Level {
             open,
+            start: at + 1,
             expression: at + 1,
             has_where: false,
         });
@@ -204,9 +234,23 @@ fn kind(tokens: &[Token], at: usize) -> TokenKind {
     tokens.get(at).map_or(TokenKind::End, |token| token.kind)
 }
 
-/// Whether `name =` stands at `at`.
+/// Whether `name =` stands at `at`, or `name.field =`.
 fn local_begins(tokens: &[Token], at: usize) -> bool {
+    defines_name(tokens, at)
+        || kind(tokens, at) == TokenKind::Name
+            && kind(tokens, at + 1) == TokenKind::Dot
+            && defines_name(tokens, at + 2)
+}
+
+/// Whether `name =` stands at `at`.
+fn defines_name(tokens: &[Token], at: usize) -> bool {
     kind(tokens, at) == TokenKind::Name && kind(tokens, at + 1) == TokenKind::Equals
+}
+
+/// Whether a name that is a whole item stands at `at`.
+fn is_bare_name(tokens: &[Token], at: usize) -> bool {
+    kind(tokens, at) == TokenKind::Name
+        && matches!(kind(tokens, at + 1), TokenKind::Comma | TokenKind::RParen)
 }
 
 /// Whether the token at `at`, the first of its line, begins a statement.
@@ -215,7 +259,7 @@ fn begins_statement(tokens: &[Token], start: usize, at: usize, levels: &Levels) 
     if levels.is_outside() && !wants_more(before) && !goes_on(kind(tokens, at)) {
         return true;
     }
-    if local_begins(tokens, at) {
+    if defines_name(tokens, at) {
         let in_settings = levels.braces > 0 && kind(tokens, start) == TokenKind::Show;
         return !in_settings && !matches!(before, TokenKind::Where | TokenKind::Comma);
     }
@@ -224,18 +268,22 @@ fn begins_statement(tokens: &[Token], start: usize, at: usize, levels: &Levels) 
 
 /// Whether a line that ends in this token goes on in the next.
 fn wants_more(kind: TokenKind) -> bool {
-    use TokenKind::{Comma, DotDot, Else, Equals, If, In, Not, Root, Then, Where};
+    use TokenKind::{Comma, DotDot, Else, Equals, If, In, Not, Root, Then, Until, Where};
     kind.is_infix()
         || matches!(
             kind,
-            Comma | Equals | Where | Then | Else | If | In | DotDot | Not | Root
+            Comma | Equals | Where | Then | Else | If | In | DotDot | Not | Root | Until
         )
 }
 
 /// Whether a line that begins with this token belongs to the line before.
 fn goes_on(kind: TokenKind) -> bool {
-    use TokenKind::{Comma, DotDot, Else, Equals, In, Then, Where};
-    kind.is_infix() || matches!(kind, Comma | Equals | Where | Then | Else | In | DotDot)
+    use TokenKind::{Comma, DotDot, Else, Equals, In, Then, Until, Where};
+    kind.is_infix()
+        || matches!(
+            kind,
+            Comma | Equals | Where | Then | Else | In | DotDot | Until
+        )
 }
 
 /// Whether something that can only be a statement stands at `at`.

@@ -28,6 +28,7 @@ mod format;
 mod layout;
 mod parse;
 mod parser;
+mod piece;
 mod printer;
 mod render;
 mod scope;

@@ -2,22 +2,68 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::ast::SeriesKind;
+
 /// Names that are values wherever they are not defined anew.
 const VALUES: [&str; 15] = [
     "pi", "π", "tau", "τ", "phi", "φ", "e", "i", "∞", "inf", "nan", "time", "pixel", "true",
     "false",
 ];
 
-/// Names of the forms that take an expression or a function apart; they are written as calls.
-const FORMS: [&str; 7] = [
-    "sum",
-    "product",
-    "iterate",
+/// Names of the operators of calculus; their first argument may be the bare name of a function.
+const OPERATORS: [&str; 10] = [
     "diff",
     "grad",
-    "integral",
+    "div",
+    "curl",
+    "laplacian",
+    "jacobian",
+    "hessian",
+    "mean_curvature",
+    "gaussian_curvature",
     "quadrature",
 ];
+
+/// A call whose brackets have a syntax of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// `sum(k in 1..n, term)`, `product(k in 1..n, term)`
+    Series(SeriesKind),
+    /// `iterate(n, z = z0, step until cond)`
+    Iterate,
+    /// `integral(expr, t, a, b)`, `integral(t in a..b, expr)`
+    Integral,
+}
+
+impl Form {
+    fn of(name: &str) -> Option<Self> {
+        Some(match name {
+            "sum" | "∑" => Self::Series(SeriesKind::Sum),
+            "product" | "∏" => Self::Series(SeriesKind::Product),
+            "iterate" => Self::Iterate,
+            "integral" => Self::Integral,
+            _ => return None,
+        })
+    }
+
+    /// The form that another name is often written for, where a range is among the arguments.
+    pub(crate) fn meant_by(name: &str) -> Option<Self> {
+        Some(match name {
+            "Σ" | "Sum" => Self::Series(SeriesKind::Sum),
+            "Π" | "Product" | "prod" => Self::Series(SeriesKind::Product),
+            _ => return None,
+        })
+    }
+
+    /// What stands in its brackets.
+    pub(crate) fn example(self) -> &'static str {
+        match self {
+            Self::Series(_) => "k in 1..n, term",
+            Self::Iterate => "n, z = start, step until condition",
+            Self::Integral => "expr, t, a, b",
+        }
+    }
+}
 
 /// Variables that a bare formula may use without defining them.
 pub(crate) const FREE_VARIABLES: [&str; 4] = ["x", "y", "z", "p"];
@@ -92,7 +138,7 @@ impl<'a> Scope<'a> {
             Role::Function
         } else if self.constants.contains(name) {
             Role::Value
-        } else if (self.is_builtin)(name) || FORMS.contains(&name) {
+        } else if (self.is_builtin)(name) || OPERATORS.contains(&name) || Form::of(name).is_some() {
             Role::Function
         } else if VALUES.contains(&name) {
             Role::Value
@@ -101,14 +147,18 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// Whether the call takes `k in 1..n` or `z = z0` among its arguments.
-    pub(crate) fn binds_in_arguments(&self, callee: &str) -> bool {
-        matches!(callee, "sum" | "product" | "iterate") && !self.functions.contains(callee)
+    /// The form that a call of this function is, if it is one.
+    pub(crate) fn form(&self, callee: &str) -> Option<Form> {
+        Form::of(callee).filter(|_| !self.functions.contains(callee))
     }
 
-    /// Whether the call takes the bare name of a function as an argument.
-    pub(crate) fn takes_functions(&self, callee: &str) -> bool {
-        matches!(callee, "grad" | "diff" | "integral" | "quadrature")
-            && !self.functions.contains(callee)
+    /// Whether the first argument of the call may be the bare name of a function.
+    pub(crate) fn takes_function(&self, callee: &str) -> bool {
+        OPERATORS.contains(&callee) && !self.functions.contains(callee)
+    }
+
+    /// Whether `callee(f)(x, y)` is `callee(f, x, y)`.
+    pub(crate) fn takes_point(&self, callee: &str) -> bool {
+        callee != "quadrature" && self.takes_function(callee)
     }
 }

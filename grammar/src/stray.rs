@@ -119,8 +119,6 @@ fn hint(c: char) -> Option<String> {
         '¾' => "write `3/4`",
         '∛' => "write `x^(1/3)`",
         '∜' => "write `x^(1/4)`",
-        '∑' => "write `sum(k in 1..n, term)`",
-        '∏' => "write `product(k in 1..n, term)`",
         '∫' => "write `integral(expr, t, a, b)`",
         '∂' => "write `diff(expr, x)` or `f'(x)`",
         '∇' => "write `grad(f)`",

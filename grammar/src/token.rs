@@ -14,9 +14,9 @@ pub enum TokenKind {
     Number,
     /// `2i`
     Imaginary,
-    /// A name: Latin and Greek letters, digits, `_` and subscripts; `π`, `τ`, `φ` and `∞` stand alone.
+    /// A name: Latin and Greek letters, digits, `_` and subscripts; `π`, `τ`, `φ`, `∞`, `∑` and `∏` stand alone.
     #[regex(r"[A-Za-z_Α-ΡΣ-Ωα-ορ-συχ-ωϑϱϵ][A-Za-z0-9_Α-ΡΣ-Ωα-ορ-συχ-ωϑϱϵ₀-₉]*")]
-    #[regex(r"[πτφ∞]")]
+    #[regex(r"[πτφ∞∑∏]")]
     Name,
     /// `²`, `⁻¹`
     #[regex(r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")]
@@ -129,6 +129,9 @@ pub enum TokenKind {
     /// `else`
     #[token("else")]
     Else,
+    /// `until`
+    #[token("until")]
+    Until,
     /// `and`, `∧`, `&&`
     #[token("and")]
     #[token("∧")]
@@ -161,10 +164,10 @@ impl TokenKind {
     /// Whether this is a reserved word or its Unicode twin.
     #[must_use]
     pub fn is_keyword(self) -> bool {
-        use TokenKind::{And, Else, If, In, Not, Or, Param, Show, Then, Where};
+        use TokenKind::{And, Else, If, In, Not, Or, Param, Show, Then, Until, Where};
         matches!(
             self,
-            Param | In | Where | Show | If | Then | Else | And | Or | Not
+            Param | In | Where | Show | If | Then | Else | Until | And | Or | Not
         )
     }
 

@@ -5,10 +5,13 @@ use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
+use super::bounds::Bounds;
 use super::builtins::advice;
+use super::fold::FoldBudget;
+use super::iteration::Iteration;
 use super::names::MAX_CALL_DEPTH;
+use super::nesting::{Extent, Nesting};
 use super::scope::Scope;
-use super::suggest::quoted;
 use super::symbols::Symbols;
 use super::{Value, library, named_constant};
 use crate::ir::{Graph, Id, Op, Ty};
@@ -40,9 +43,23 @@ pub struct Builder<'a> {
     pub(super) depth: usize,
     /// Functions and constants whose values are being built.
     pub(super) active: Vec<&'a str>,
-    pub(super) calls: FxHashMap<(Source, &'a str, Vec<Value>), Value>,
-    constants: FxHashMap<&'a str, Value>,
+    pub(super) calls: FxHashMap<(Source, &'a str, Vec<Value>), Known>,
+    /// Values of constants, each with the number of those that were known before it.
+    pub(super) constants: FxHashMap<&'a str, (Value, usize)>,
+    pub(super) bounds: Bounds,
+    pub(super) nesting: Nesting,
+    pub(super) folding: FoldBudget,
     program: &'a File,
+}
+
+/// A call that was built.
+#[derive(Clone, Debug)]
+pub(super) struct Known {
+    pub value: Value,
+    /// The loops that it contains.
+    pub loops: Extent,
+    /// The number of calls that were known before it.
+    pub place: usize,
 }
 
 impl<'a> Builder<'a> {
@@ -60,8 +77,24 @@ impl<'a> Builder<'a> {
             active: Vec::new(),
             calls: FxHashMap::default(),
             constants: FxHashMap::default(),
+            bounds: Bounds::default(),
+            nesting: Nesting::default(),
+            folding: FoldBudget::default(),
             program,
         }
+    }
+
+    /// The same, knowing the ranges of the parameters that have one, in the order of their indices.
+    #[must_use]
+    pub fn with_ranges(mut self, ranges: &[Option<(f64, f64)>]) -> Self {
+        self.bounds.params = ranges.to_vec();
+        self
+    }
+
+    /// The operations that were spent on computing constant loops.
+    #[must_use]
+    pub fn spent(&self) -> u64 {
+        self.folding.spent()
     }
 
     /// The program's functions that have been called.
@@ -81,8 +114,14 @@ impl<'a> Builder<'a> {
         self.scope.push(name, value);
     }
 
-    /// Builds an expression of the current text.
+    /// Builds an expression of the current text, which must be a number, a vector or a truth value.
     pub fn expr(&mut self, id: ExprId) -> Value {
+        let value = self.any(id);
+        self.number(value, id)
+    }
+
+    /// Builds an expression of the current text, which may be a record.
+    pub(super) fn any(&mut self, id: ExprId) -> Value {
         if self.graph.budget().is_err() {
             return Value::Error;
         }
@@ -122,7 +161,7 @@ impl<'a> Builder<'a> {
                 primes,
                 args,
             } => self.call(callee, *primes, args, span),
-            Expr::Member { base, field } => self.swizzle(*base, field),
+            Expr::Member { base, field } => self.member(*base, field),
             Expr::Vector(items) => self.vector(items),
             Expr::If {
                 cond,
@@ -133,7 +172,20 @@ impl<'a> Builder<'a> {
                 self.choice(arms.iter().copied(), *otherwise, span)
             }
             Expr::Where { body, locals } => self.locals(*body, locals),
-            Expr::Series { .. } | Expr::Iterate { .. } | Expr::Integral { .. } => Value::Error,
+            Expr::Series { kind, ranges, term } => self.series(*kind, ranges, *term, span),
+            Expr::Iterate {
+                count,
+                states,
+                steps,
+                until,
+            } => self.iteration(&Iteration {
+                count: *count,
+                states,
+                steps,
+                until: *until,
+                span,
+            }),
+            Expr::Integral { .. } => Value::Error,
         }
     }
 
@@ -160,11 +212,11 @@ impl<'a> Builder<'a> {
     fn locals(&mut self, body: ExprId, locals: &'a [Local]) -> Value {
         let depth = self.scope.len();
         for local in locals {
-            let value = self.expr(local.value);
+            let value = self.local(local);
             self.name_value(&local.name.text, &value);
             self.scope.push(&local.name.text, value);
         }
-        let value = self.expr(body);
+        let value = self.any(body);
         self.scope.truncate(depth);
         value
     }
@@ -188,7 +240,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn name(&mut self, name: &'a Name) -> Value {
+    pub(super) fn name(&mut self, name: &'a Name) -> Value {
         let text = name.text.as_str();
         if let Some(value) = self.scope.get(text) {
             return value.clone();
@@ -213,15 +265,18 @@ impl<'a> Builder<'a> {
     }
 
     fn constant(&mut self, name: &'a str, body: ExprId) -> Value {
-        if let Some(value) = self.constants.get(name) {
+        if let Some((value, _)) = self.constants.get(name) {
             return value.clone();
         }
         if self.active.contains(&name) {
             return Value::Error;
         }
+        let around = self.nesting.outermost();
         let value = self.outside(name, Source::Program, Scope::default(), body);
+        self.nesting = around;
         self.name_value(name, &value);
-        self.constants.insert(name, value.clone());
+        let place = self.constants.len();
+        self.constants.insert(name, (value.clone(), place));
         value
     }
 
@@ -245,7 +300,7 @@ impl<'a> Builder<'a> {
         let source = std::mem::replace(&mut self.source, source);
         let scope = std::mem::replace(&mut self.scope, scope);
         self.active.push(name);
-        let value = self.expr(body);
+        let value = self.any(body);
         self.active.pop();
         (self.file, self.source, self.scope) = (file, source, scope);
         value
@@ -282,57 +337,6 @@ impl<'a> Builder<'a> {
         } else {
             Value::Vector(ids)
         }
-    }
-
-    fn swizzle(&mut self, base: ExprId, field: &'a Name) -> Value {
-        let value = self.expr(base);
-        let items = match &value {
-            Value::Error => return Value::Error,
-            Value::Vector(items) => items.clone(),
-            Value::Scalar(_) => {
-                let Some(ty) = value.ty(&self.graph) else {
-                    return Value::Error;
-                };
-                let problem = Diagnostic::error(
-                    "bad-swizzle",
-                    field.span,
-                    format!("only vectors have components, this is {ty}"),
-                );
-                return self.report(if ty == Type::Complex {
-                    problem.with_hint("the parts of a complex number are re(z) and im(z)")
-                } else {
-                    problem.with_hint("write `*` for a product; a vector is written (x, y)")
-                });
-            }
-        };
-        let mut ids: SmallVec<[Id; 4]> = SmallVec::new();
-        for letter in field.text.chars() {
-            let index = "xyzw".find(letter).or_else(|| "rgba".find(letter));
-            match index.and_then(|k| items.get(k)) {
-                Some(&id) => ids.push(id),
-                None => return self.bad_swizzle(field, letter, items.len()),
-            }
-        }
-        match ids.as_slice() {
-            [id] => Value::Scalar(*id),
-            [_, _] | [_, _, _] | [_, _, _, _] => Value::Vector(ids),
-            _ => self.bad_swizzle(field, ' ', items.len()),
-        }
-    }
-
-    fn bad_swizzle(&mut self, field: &Name, letter: char, size: usize) -> Value {
-        let (known, twins) = (&"xyzw"[..size.min(4)], &"rgba"[..size.min(4)]);
-        let (message, hint) = if letter == ' ' {
-            let message = format!("{} has more than four letters", quoted(&field.text));
-            (message, "a vector has at most 4 components".to_owned())
-        } else {
-            let message = format!("a vec{size} has no component `{letter}`");
-            (
-                message,
-                format!("the components of a vec{size} are {known}, or {twins}"),
-            )
-        };
-        self.report(Diagnostic::error("bad-swizzle", field.span, message).with_hint(hint))
     }
 
     /// The function of the program with this name.

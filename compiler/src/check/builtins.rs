@@ -180,7 +180,7 @@ fn components(b: &mut Builder, value: &Value, span: Span) -> Result<SmallVec<[Id
 pub fn length(b: &mut Builder, value: &Value, span: Span) -> Value {
     let items = match value {
         Value::Vector(items) => items,
-        Value::Error => return Value::Error,
+        Value::Record(_) | Value::Error => return Value::Error,
         Value::Scalar(id) if b.graph.ty(*id) == Ty::Bool => {
             return mismatch(b, span, "a number or vector", value);
         }

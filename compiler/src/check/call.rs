@@ -4,6 +4,7 @@ use pullback_grammar::ast::{ExprId, Function, Name};
 use pullback_grammar::{Diagnostic, Span};
 use smallvec::SmallVec;
 
+use super::builder::Known;
 use super::builtins::advice;
 use super::names::signature;
 use super::scope::Scope;
@@ -21,7 +22,17 @@ impl<'a> Builder<'a> {
         args: &'a [ExprId],
         span: Span,
     ) -> Value {
-        let values: Vec<Value> = args.iter().map(|&arg| self.expr(arg)).collect();
+        let user = self.user_function(&callee.text);
+        let mut values: Vec<Value> = Vec::new();
+        for (k, &arg) in args.iter().enumerate() {
+            let formal = user.and_then(|function| function.params.get(k));
+            let takes_records = formal.is_some_and(|formal| formal.ty.is_none());
+            values.push(if takes_records {
+                self.any(arg)
+            } else {
+                self.expr(arg)
+            });
+        }
         if primes > 0 {
             return self.report(
                 Diagnostic::error(
@@ -36,7 +47,7 @@ impl<'a> Builder<'a> {
             return Value::Error;
         }
         let name = callee.text.as_str();
-        if let Some(function) = self.user_function(name) {
+        if let Some(function) = user {
             let spans: Vec<Span> = args.iter().map(|&a| self.span(a)).collect();
             return self.call_function(function, values, &spans, span);
         }
@@ -71,7 +82,7 @@ impl<'a> Builder<'a> {
         total
     }
 
-    /// Calls a function of the program with checked arguments.
+    /// Calls a function of the program with checked arguments. The value may be a record, see [`Self::number`].
     pub fn call_function(
         &mut self,
         function: &'a Function,
@@ -95,8 +106,9 @@ impl<'a> Builder<'a> {
             }
         }
         let key = (Source::Program, name, values);
-        if let Some(value) = self.calls.get(&key) {
-            return value.clone();
+        if let Some(known) = self.calls.get(&key).cloned() {
+            let fits = self.reuse(known.loops, span);
+            return if fits { known.value } else { Value::Error };
         }
         let scope: Scope<'a, Value> = function
             .params
@@ -105,14 +117,21 @@ impl<'a> Builder<'a> {
             .zip(key.2.iter().cloned())
             .collect();
         let before = self.diagnostics.len();
+        let around = self.nesting.apart();
         let value = self.outside(name, Source::Program, scope, function.body);
+        let loops = self.nesting.join(around);
         for problem in self.diagnostics.iter_mut().skip(before) {
             if problem.code == "type-mismatch" && problem.related.is_empty() && !spans.is_empty() {
                 problem.related.push((span, "in this call".to_owned()));
             }
         }
         self.name_value(name, &value);
-        self.calls.insert(key, value.clone());
+        let known = Known {
+            value: value.clone(),
+            loops,
+            place: self.calls.len(),
+        };
+        self.calls.insert(key, known);
         value
     }
 

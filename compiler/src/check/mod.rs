@@ -1,11 +1,16 @@
 //! From the syntax tree to the IR: names, types, and the pictures that a program shows.
 
+mod bounds;
 mod builder;
 mod builtins;
 mod call;
+mod fold;
+mod iteration;
 mod library;
 mod names;
+mod nesting;
 mod operators;
+mod record;
 mod scope;
 mod suggest;
 mod symbols;
@@ -14,7 +19,9 @@ mod value;
 pub use builder::{Builder, Source};
 pub use builtins::{Builtin, builtins};
 pub use library::{LibraryFunction, library_functions};
+pub use nesting::{MAX_LOOP_NESTING, MAX_STEPS};
 pub use names::{check_names, free_variables, not_constant, signature};
+pub use record::Record;
 pub use suggest::{nearest, quoted, shortened};
 pub use symbols::{MAX_PARAMS, Symbols};
 pub use value::Value;

@@ -69,7 +69,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn condition_expected(&mut self, value: &Value, span: Span) -> Value {
+    pub(super) fn condition_expected(&mut self, value: &Value, span: Span) -> Value {
         let Some(ty) = value.ty(&self.graph) else {
             return Value::Error;
         };
@@ -89,7 +89,7 @@ impl<'a> Builder<'a> {
         let mut size = None;
         for arg in args {
             match arg {
-                Value::Error => return Value::Error,
+                Value::Record(_) | Value::Error => return Value::Error,
                 Value::Scalar(_) => {}
                 Value::Vector(items) => match size {
                     Some(n) if n != items.len() => return self.mismatched(prim, args, span),

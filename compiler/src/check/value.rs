@@ -2,6 +2,7 @@
 
 use smallvec::SmallVec;
 
+use super::Record;
 use crate::ir::{Graph, Id, Ty};
 use crate::types::Type;
 
@@ -12,12 +13,14 @@ pub enum Value {
     Scalar(Id),
     /// Components of a vector, all real.
     Vector(SmallVec<[Id; 4]>),
+    /// Several values, of which one may stand for all.
+    Record(Box<Record>),
     /// Something that could not be checked; the mistake has been reported.
     Error,
 }
 
 impl Value {
-    /// The type, or `None` for an error.
+    /// The type, or `None` for an error and for a record of which a member has to be named.
     #[must_use]
     pub fn ty(&self, graph: &Graph) -> Option<Type> {
         match self {
@@ -28,6 +31,7 @@ impl Value {
                 Ty::Bool => Type::Bool,
             }),
             Self::Vector(items) => Some(Type::Vector(u8::try_from(items.len()).unwrap_or(4))),
+            Self::Record(record) => record.value.as_ref()?.ty(graph),
             Self::Error => None,
         }
     }
@@ -38,6 +42,7 @@ impl Value {
         match self {
             Self::Scalar(id) => SmallVec::from_slice(&[*id]),
             Self::Vector(items) => items.clone(),
+            Self::Record(record) => record.value.as_ref().map(Self::ids).unwrap_or_default(),
             Self::Error => SmallVec::new(),
         }
     }

@@ -1,6 +1,10 @@
 //! Forward mode: tangents of every node along one direction, with zero tangents folded away.
 
+use rustc_hash::FxHashMap;
+
 use super::NoDerivative;
+use super::activity::activity;
+use super::extend::{extend, states};
 use super::rules::{int_power_partial, sum, takes_second, zero_like};
 use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
 use crate::table::{self, Derivative};
@@ -20,16 +24,41 @@ pub fn forward(
 ) -> Result<Vec<Option<Id>>, NoDerivative> {
     let live = g.reachable(roots);
     let mut tangents: Vec<Option<Id>> = vec![None; live.len()];
+    if g.has_loops() {
+        let leaves: Vec<Id> = seeds.iter().map(|seed| seed.0).collect();
+        let active = activity(g, &live, &leaves);
+        for leaf in states(g, &live, &active) {
+            let ty = g.ty(leaf);
+            tangents[leaf.index()] = Some(g.tangent_state(leaf, seeds, 0, ty));
+        }
+    }
     for &(leaf, seed) in seeds {
         tangents[leaf.index()] = Some(seed);
     }
-    let ids: Vec<Id> = g.ids().collect();
+    let mut extended: FxHashMap<Id, Id> = FxHashMap::default();
+    let ids: Vec<Id> = g.ids().take(live.len()).collect();
     for id in ids {
         if !live[id.index()] {
             continue;
         }
         let node = g.node(id).clone();
-        let Op::Apply(prim) = node.op else { continue };
+        let prim = match node.op {
+            Op::Apply(prim) => prim,
+            Op::Loop { .. } => {
+                if let Some(longer) = extend(g, id, &live, |of| tangents[of.index()]) {
+                    extended.insert(id, longer);
+                }
+                continue;
+            }
+            Op::Result(_) => {
+                tangents[id.index()] = extended.get(&node.args[0]).and_then(|&longer| {
+                    let leaf = g.leaf_of_result(id)?;
+                    Some(g.result(longer, tangents[leaf.index()]?))
+                });
+                continue;
+            }
+            _ => continue,
+        };
         if node.args.iter().all(|a| tangents[a.index()].is_none()) {
             continue;
         }

@@ -1,8 +1,12 @@
 //! The first-order jet of a function of one complex variable.
 
+use rustc_hash::FxHashMap;
+
 use super::NoDerivative;
+use super::activity::{activity, conjugate_activity};
+use super::extend::{extend, states};
 use super::rules::{int_power_partial, sum, takes_second};
-use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
+use crate::ir::{Graph, Id, Node, Op, Prim, State, Ty};
 use crate::table::{self, Derivative};
 
 /// Value and Wirtinger derivatives of f at z.
@@ -44,13 +48,29 @@ struct Tangent {
 pub fn jet(g: &mut Graph, root: Id, z: ComplexVariable) -> Result<Jet, NoDerivative> {
     let live = g.reachable(&[root]);
     let mut tangents = vec![Tangent::default(); live.len()];
-    for (leaf, dz) in seeds(g, z) {
+    let seeds = seeds(g, z);
+    if g.has_loops() {
+        seed_states(g, &live, &seeds, &mut tangents);
+    }
+    for (leaf, dz) in seeds {
         tangents[leaf.index()].dz = Some(dz);
     }
+    let mut extended: FxHashMap<Id, Id> = FxHashMap::default();
     let ids: Vec<Id> = g.ids().take(live.len()).collect();
     for id in ids {
         let node = g.node(id).clone();
-        let Op::Apply(prim) = node.op else { continue };
+        let prim = match node.op {
+            Op::Apply(prim) => prim,
+            Op::Loop { .. } if live[id.index()] => {
+                extend_loop(g, id, &live, &tangents, &mut extended);
+                continue;
+            }
+            Op::Result(_) if live[id.index()] => {
+                tangents[id.index()] = of_result(g, id, &tangents, &extended);
+                continue;
+            }
+            _ => continue,
+        };
         let depends =
             |a: &Id| tangents[a.index()].dz.is_some() || tangents[a.index()].dzbar.is_some();
         if live[id.index()] && node.ty != Ty::Bool && node.args.iter().any(depends) {
@@ -72,6 +92,64 @@ pub fn jet(g: &mut Graph, root: Id, z: ComplexVariable) -> Result<Jet, NoDerivat
         dz: g.widen(dz),
         dzbar: dzbar.map(|d| g.widen(d)),
     })
+}
+
+/// Gives the states of loops that depend on z leaves for their derivatives.
+fn seed_states(g: &mut Graph, live: &[bool], seeds: &[(Id, Id)], tangents: &mut [Tangent]) {
+    let leaves: Vec<Id> = seeds.iter().map(|seed| seed.0).collect();
+    let active = activity(g, live, &leaves);
+    let bar = conjugate_activity(g, live, &active);
+    for leaf in states(g, live, &active) {
+        let dz = g.tangent_state(leaf, seeds, DZ, Ty::Complex);
+        let dzbar = bar[leaf.index()].then(|| g.tangent_state(leaf, seeds, DZBAR, Ty::Complex));
+        tangents[leaf.index()] = Tangent {
+            dz: Some(dz),
+            dzbar,
+        };
+    }
+}
+
+/// Which tangent of a state a further state is.
+const DZ: u8 = 1;
+const DZBAR: u8 = 2;
+
+/// A loop with the derivatives of its states by z, and by z̄ where they have one.
+fn extend_loop(
+    g: &mut Graph,
+    id: Id,
+    live: &[bool],
+    tangents: &[Tangent],
+    extended: &mut FxHashMap<Id, Id>,
+) {
+    let once = extend(g, id, live, |of| tangents.get(of.index())?.dz);
+    let Some(once) = once else { return };
+    let twice = extend(g, id, live, |of| tangents.get(of.index())?.dzbar);
+    let Some(twice) = twice.and_then(|twice| g.as_loop(twice)) else {
+        extended.insert(id, once);
+        return;
+    };
+    if let Some(mut both) = g.as_loop(once) {
+        let further = twice.states.iter();
+        let further: Vec<State> = further
+            .filter(|s| !both.states.contains(s))
+            .copied()
+            .collect();
+        both.states.extend(further);
+        let both = g.repeat(&both);
+        extended.insert(id, both);
+    }
+}
+
+fn of_result(g: &mut Graph, id: Id, tangents: &[Tangent], extended: &FxHashMap<Id, Id>) -> Tangent {
+    let repeated = g.node(id).args[0];
+    let (Some(&longer), Some(leaf)) = (extended.get(&repeated), g.leaf_of_result(id)) else {
+        return Tangent::default();
+    };
+    let Tangent { dz, dzbar } = tangents[leaf.index()];
+    Tangent {
+        dz: dz.map(|leaf| g.result(longer, leaf)),
+        dzbar: dzbar.map(|leaf| g.result(longer, leaf)),
+    }
 }
 
 /// ∂/∂z of the leaves: of z itself 1, of its parts x = (z + z̄)/2 and y = (z - z̄)/(2i).

@@ -1,8 +1,12 @@
 //! Exact derivatives as IR: forward mode, reverse mode, and the complex jet.
 
+mod activity;
+mod extend;
 mod forward;
 mod gradient;
 mod jet;
+#[cfg(test)]
+mod loop_tests;
 mod reverse;
 mod rules;
 

@@ -1,6 +1,7 @@
 //! Reverse mode for one real root: adjoints of every node.
 
 use super::NoDerivative;
+use super::activity::activity;
 use super::rules::{sum, takes_second};
 use crate::ir::{Graph, Id, Op, Prim, Ty};
 use crate::table::{self, Derivative};
@@ -11,8 +12,8 @@ const MAX_CHOICES: usize = 32;
 /// Partial derivatives of a real node by each leaf; `None` is an exact zero.
 type Partials = Vec<Option<Id>>;
 
-/// Partial derivatives of a real root by each leaf; `Ok(None)` where the expression goes through complex numbers
-/// or very many choices, which this mode does not treat.
+/// Partial derivatives of a real root by each leaf; `Ok(None)` where the expression goes through complex numbers,
+/// loops, or very many choices, which this mode does not treat.
 ///
 /// The gradient of a choice is the choice of the gradients of its branches, each swept by itself: passing the
 /// adjoint 0 into the branch that is not taken would give NaN where a slope there is infinite or undefined.
@@ -23,7 +24,11 @@ type Partials = Vec<Option<Id>>;
 /// An operation that depends on a leaf has no derivative rule.
 pub fn reverse(g: &mut Graph, root: Id, leaves: &[Id]) -> Result<Option<Partials>, NoDerivative> {
     let live = g.reachable(&[root]);
-    let active = active(g, &live, leaves);
+    let active = activity(g, &live, leaves);
+    let in_loop = |id: Id| active[id.index()] && matches!(g.node(id).op, Op::Result(_));
+    if g.has_loops() && g.ids().take(live.len()).any(in_loop) {
+        return Ok(None);
+    }
     let moving = |id: &Id| active[id.index()];
     let ids: Vec<Id> = g.ids().take(live.len()).filter(moving).collect();
     let choices: Vec<Id> = ids
@@ -126,20 +131,6 @@ impl Sweep<'_> {
 
 fn is_choice(op: Op) -> bool {
     matches!(op, Op::Apply(Prim::Select | Prim::Min | Prim::Max))
-}
-
-/// Marks the live nodes that depend on a leaf.
-fn active(g: &Graph, live: &[bool], leaves: &[Id]) -> Vec<bool> {
-    let mut active = vec![false; live.len()];
-    for leaf in leaves {
-        active[leaf.index()] = true;
-    }
-    for (id, node) in g.ids().zip(g.nodes()) {
-        if live[id.index()] && node.args.iter().any(|a| active[a.index()]) {
-            active[id.index()] = true;
-        }
-    }
-    active
 }
 
 /// What the adjoint of a node gives to its k-th operand.

@@ -21,6 +21,8 @@ pub fn keep_names(module: &mut Module, generated: &[String]) {
         taken.extend(function.name.clone());
         taken.extend(function.arguments.iter().filter_map(|a| a.name.clone()));
         taken.extend(function.named_expressions.values().cloned());
+        let locals = function.local_variables.iter();
+        taken.extend(locals.filter_map(|(_, local)| local.name.clone()));
     }
     for (handle, function) in module.functions.iter_mut() {
         if !ours.contains(&handle) {

@@ -42,8 +42,12 @@ pub struct Graph {
     pub(super) states_of: Vec<u16>,
     /// Number of bound variables that were given out.
     pub(super) variables: u32,
+    /// Leaves of the tangents of states, by state, part and seeds.
+    pub(super) tangent_states: FxHashMap<TangentKey, Id>,
     over_budget: bool,
 }
+
+type TangentKey = (Id, u8, Vec<(Id, Id)>);
 
 impl Graph {
     /// Greatest number of nodes; a formula that needs more is refused.
@@ -88,6 +92,11 @@ impl Graph {
         } else {
             Ok(())
         }
+    }
+
+    /// Marks the budget as used up.
+    pub(super) fn refuse(&mut self) {
+        self.over_budget = true;
     }
 
     /// Adds a node as it is, without simplification, or finds the one that is equal to it. Sums and products

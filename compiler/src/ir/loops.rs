@@ -94,8 +94,39 @@ impl Graph {
             return self.real(f64::NAN);
         };
         let index = *count;
-        *count = count.saturating_add(1);
+        if index == u16::MAX {
+            self.refuse();
+            return self.real(f64::NAN);
+        }
+        *count += 1;
         self.leaf(Op::State(binder, index), ty)
+    }
+
+    /// The leaf for the tangent of a state along the seeds; the same leaf each time. `part` tells tangents of one state
+    /// apart.
+    pub(crate) fn tangent_state(&mut self, leaf: Id, seeds: &[(Id, Id)], part: u8, ty: Ty) -> Id {
+        let Op::State(binder, _) = self.node(leaf).op else {
+            return self.real(f64::NAN);
+        };
+        let key = (leaf, part, seeds.to_vec());
+        if let Some(&known) = self.tangent_states.get(&key) {
+            return known;
+        }
+        let new = self.new_state(binder, ty);
+        self.tangent_states.insert(key, new);
+        new
+    }
+
+    /// The leaf of the state that a result node is.
+    #[must_use]
+    pub fn leaf_of_result(&self, result: Id) -> Option<Id> {
+        let node = self.node(result);
+        let Op::Result(index) = node.op else {
+            return None;
+        };
+        let it = self.as_loop(*node.args.first()?)?;
+        let mut leaves = it.states.iter().map(|state| state.leaf);
+        leaves.find(|&leaf| matches!(self.node(leaf).op, Op::State(_, k) if k == index))
     }
 
     /// The leaf for the number of steps done.

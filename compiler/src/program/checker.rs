@@ -22,11 +22,13 @@ pub(super) struct Checker<'a> {
     pub(super) diagnostics: Vec<Diagnostic>,
     /// Functions that something shown, or a constant, has called: they are checked.
     pub(super) called: FxHashSet<&'a str>,
+    /// The range of each parameter that states one.
+    pub(super) ranges: Vec<Option<(f64, f64)>>,
 }
 
 impl<'a> Checker<'a> {
     pub(super) fn builder(&self) -> Builder<'a> {
-        Builder::new(self.file, self.symbols)
+        Builder::new(self.file, self.symbols).with_ranges(&self.ranges)
     }
 
     /// Takes over what a builder found.

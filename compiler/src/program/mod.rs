@@ -116,6 +116,7 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
         symbols: &symbols,
         diagnostics,
         called: FxHashSet::default(),
+        ranges: Vec::new(),
     };
     let params = checker.params();
     let pictures = checker.pictures();

@@ -17,10 +17,15 @@ impl<'a> Checker<'a> {
             _ => None,
         });
         // more have been refused
-        params
-            .take(MAX_PARAMS)
-            .map(|param| self.param(param))
-            .collect()
+        let mut out = Vec::new();
+        let mut ranges = Vec::new();
+        for param in params.take(MAX_PARAMS) {
+            let info = self.param(param);
+            ranges.push(param.range.map(|_| (info.lo, info.hi)));
+            out.push(info);
+        }
+        self.ranges = ranges;
+        out
     }
 
     pub(super) fn param(&mut self, param: &'a Param) -> ParamInfo {

@@ -82,7 +82,10 @@ impl<'a> Checker<'a> {
             first += scalar_types(ty).len();
         }
         let value = match subject {
-            Subject::Function(function) => builder.call_function(function, values, &[], span),
+            Subject::Function(function) => {
+                let value = builder.call_function(function, values, &[], span);
+                builder.number(value, function.body)
+            }
             Subject::Formula(body) => {
                 for ((name, _), value) in declared.iter().zip(values) {
                     builder.define(name, value);

@@ -70,6 +70,8 @@ impl<'a> Checker<'a> {
                 let mut builder = self.attempt(function, &types);
                 // a large function counts as many
                 *attempts = attempts.saturating_sub(builder.graph.nodes().len() / 200);
+                let spent = usize::try_from(builder.spent() / 2000).unwrap_or(usize::MAX);
+                *attempts = attempts.saturating_sub(spent);
                 if builder.graph.budget().is_err() {
                     return;
                 }

@@ -170,10 +170,20 @@ impl Parser<'_> {
                 format!("{quoted} without `if`"),
                 Some("write `if c then a else b`"),
             ),
+            TokenKind::In if opened.is_some() => (
+                "unexpected-token",
+                "`in` outside of a sum, product or integral".to_owned(),
+                Some("write `sum(k in 1..n, term)`, `product(…)` or `integral(t in a..b, expr)`"),
+            ),
             TokenKind::In => (
                 "unexpected-token",
                 "`in` outside of `param`".to_owned(),
                 Some("write `param name = value in lo..hi`"),
+            ),
+            TokenKind::Until => (
+                "unexpected-token",
+                "`until` outside of `iterate`".to_owned(),
+                Some("write it in the brackets: `iterate(n, z = start, step until condition)`"),
             ),
             TokenKind::DotDot => (
                 "unexpected-token",

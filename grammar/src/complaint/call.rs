@@ -2,8 +2,9 @@
 
 use crate::Diagnostic;
 use crate::Span;
-use crate::ast::Name;
+use crate::ast::{ExprId, Name, SeriesKind};
 use crate::cursor::Parser;
+use crate::scope::{Form, Role};
 use crate::stray::shorten;
 use crate::token::TokenKind;
 
@@ -46,7 +47,10 @@ impl Parser<'_> {
             }
             _ => "x".to_owned(),
         };
-        let hint = if self.at(TokenKind::Caret) {
+        let form = self.scope.form(&callee.text);
+        let hint = if let Some(form) = form {
+            format!("write `{name}({})`", form.example())
+        } else if self.at(TokenKind::Caret) {
             let exponent = self.short(self.span_ahead(1));
             format!("write `{name}({argument})^{exponent}` for a power of the value")
         } else {
@@ -63,6 +67,58 @@ impl Parser<'_> {
         );
     }
 
+    /// The form that a call is; complains where its name is another one.
+    pub(crate) fn form_of(&mut self, callee: &Name) -> Option<Form> {
+        let form = self.scope.form(&callee.text);
+        let has_range = self.ahead(1) == TokenKind::Name && self.ahead(2) == TokenKind::In;
+        if form.is_some() || !has_range || self.scope.role(&callee.text) != Role::Unknown {
+            return form;
+        }
+        let meant = Form::meant_by(&callee.text)?;
+        let name = if meant == Form::Series(SeriesKind::Sum) {
+            "sum"
+        } else {
+            "product"
+        };
+        let message = format!("`{}` is no name of a {name}", callee.text);
+        self.diagnostics.push(
+            Diagnostic::error("foreign-name", callee.span, message)
+                .with_label("a name like any other")
+                .with_hint(format!("write `{name}({})`", meant.example())),
+        );
+        Some(meant)
+    }
+
+    /// `sum'(…)`
+    #[cold]
+    pub(crate) fn complain_prime_of_form(&mut self, callee: &Name) {
+        let name = shorten(&callee.text);
+        let message = format!("a prime stands behind `{name}`");
+        self.complain(
+            Diagnostic::error("stray-prime", callee.span.join(self.last_span()), message)
+                .with_label("only a function of one variable has such a derivative")
+                .with_hint(format!("write `diff({name}(…), x)`")),
+        );
+    }
+
+    /// `grad(f)()`: the brackets of the point are there, the point is not.
+    pub(crate) fn check_point(&mut self, callee: &Name, args: &[ExprId]) {
+        let [function] = args else { return };
+        let function = self.short(self.exprs.span(*function));
+        let name = &callee.text;
+        self.complain(
+            Diagnostic::error(
+                "empty-brackets",
+                self.last_span(),
+                "nothing stands between the brackets",
+            )
+            .with_label("expected a point")
+            .with_hint(format!(
+                "write `{name}({function})(x, y)`, or `{name}({function})` at the parameters here"
+            )),
+        );
+    }
+
     #[cold]
     pub(crate) fn complain_no_function(&mut self, name: &Name) {
         let message = format!(
@@ -73,20 +129,6 @@ impl Parser<'_> {
             Diagnostic::error("stray-prime", name.span.join(self.last_span()), message)
                 .with_label("only a function has a derivative")
                 .with_hint("write `f'(x)`, or `diff(expr, x)`"),
-        );
-    }
-
-    #[cold]
-    pub(crate) fn complain_not_yet(&mut self) {
-        let place = self.span();
-        self.complain(
-            Diagnostic::error(
-                "not-yet",
-                place,
-                "sums, products and iterations are not available yet",
-            )
-            .with_label("an index or state of a loop")
-            .with_hint("write the terms out"),
         );
     }
 }

@@ -3,6 +3,7 @@
 mod bracket;
 mod call;
 mod division;
+mod form;
 mod name;
 mod operand;
 mod operator;

@@ -143,17 +143,22 @@ impl Parser<'_> {
         None
     }
 
-    /// `name =` of a local.
-    pub(crate) fn expect_local(&mut self) -> Option<Name> {
+    /// `name =` or `name.field =` of a local.
+    pub(crate) fn expect_local(&mut self) -> Option<(Name, Option<Name>)> {
         self.skip_strays();
         if self.at(TokenKind::Name) {
-            if self.ahead(1) == TokenKind::Equals {
+            if self.local_begins(0) {
                 let name = self.bump_name();
+                let field = self.eat(TokenKind::Dot).then(|| self.bump_name());
                 self.bump();
-                return Some(name);
+                if let Some(field) = &field {
+                    self.check_field(&name, field);
+                }
+                return Some((name, field));
             }
             if self.ahead(1) == TokenKind::LParen {
-                return self.no_local_function();
+                self.no_local_function();
+                return None;
             }
         }
         if self.kind().is_keyword() && self.ahead(1) == TokenKind::Equals {
@@ -163,25 +168,64 @@ impl Parser<'_> {
             self.disjunction();
             return None;
         }
+        self.complain_missing_local();
+        self.skip_local();
+        None
+    }
+
+    #[cold]
+    fn complain_missing_local(&mut self) {
         let message = format!("missing definition after {}", self.quote(self.last_span()));
         let span = if self.at(TokenKind::End) {
             self.last_span()
         } else {
             self.span()
         };
+        let hint = self.hint_for_local();
         self.complain(
             Diagnostic::error("missing-local", span, message)
                 .with_label("expected `name = value`")
-                .with_hint("write `… where a = value, b = value`"),
+                .with_hint(hint),
         );
-        if self.eat(TokenKind::Name) && !matches!(self.kind(), TokenKind::End | TokenKind::Comma) {
+    }
+
+    /// How the local that is here should be written.
+    fn hint_for_local(&self) -> String {
+        let has_field = self.ahead(1) == TokenKind::Dot && self.ahead(2) == TokenKind::Name;
+        let last = if has_field { 2 } else { 0 };
+        let is_compound =
+            self.ahead(last + 1).is_infix() && self.ahead(last + 2) == TokenKind::Equals;
+        let name = self.short(self.span().join(self.span_ahead(last)));
+        match self.kind() {
+            TokenKind::Name if is_compound => {
+                let operator = self.short(self.span_ahead(last + 1));
+                format!("write `{name} = {name} {operator} …`")
+            }
+            TokenKind::Name if has_field => format!("write `{name} = …`"),
+            _ => "write `… where a = value, b = value`".to_owned(),
+        }
+    }
+
+    /// Goes past what stands where a local should.
+    fn skip_local(&mut self) {
+        if !self.eat(TokenKind::Name) {
+            return;
+        }
+        while self.eat(TokenKind::Dot) {
+            self.eat(TokenKind::Name);
+        }
+        self.eat(TokenKind::Equals);
+        if self.kind().is_infix() && self.ahead(1) == TokenKind::Equals {
+            self.bump();
+            self.bump();
+        }
+        if !matches!(self.kind(), TokenKind::End | TokenKind::Comma) {
             self.disjunction();
         }
-        None
     }
 
     /// `where g(t) = …`
-    fn no_local_function(&mut self) -> Option<Name> {
+    fn no_local_function(&mut self) {
         let name = self.short(self.span());
         let span = self.span();
         self.complain(
@@ -201,14 +245,48 @@ impl Parser<'_> {
         if self.eat(TokenKind::Equals) {
             self.disjunction();
         }
-        None
+    }
+
+    /// Whether `name =` or `name.field =` stands `at` places on.
+    fn local_begins(&self, at: usize) -> bool {
+        let defines =
+            |at| self.ahead(at) == TokenKind::Name && self.ahead(at + 1) == TokenKind::Equals;
+        defines(at)
+            || self.ahead(at) == TokenKind::Name
+                && self.ahead(at + 1) == TokenKind::Dot
+                && defines(at + 2)
+    }
+
+    /// Complains where the components that a local replaces are none, or are named twice.
+    fn check_field(&mut self, name: &Name, field: &Name) {
+        let mut seen = [false; 4];
+        let mut fits = field.text.len() <= 4;
+        for letter in field.text.chars() {
+            let index = "xyzw".find(letter).or_else(|| "rgba".find(letter));
+            let place = index.and_then(|index| seen.get_mut(index));
+            fits &= place.is_some_and(|seen| !std::mem::replace(seen, true));
+        }
+        if !fits {
+            self.complain_bad_field(name, field);
+        }
+    }
+
+    #[cold]
+    fn complain_bad_field(&mut self, name: &Name, field: &Name) {
+        let (name, letters) = (shorten(&name.text), shorten(&field.text));
+        let message = format!("`.{letters}` does not name components to replace");
+        self.diagnostics.push(
+            Diagnostic::error("bad-update", field.span, message)
+                .with_label("expected letters of `xyzw` or `rgba`, each once")
+                .with_hint(format!("write `{name}.x = …` or `{name}.xy = …`")),
+        );
     }
 
     /// Whether another local follows; the comma of an enclosing list is left alone.
     pub(crate) fn another_local(&mut self) -> bool {
         let begins = |at: usize, parser: &Self| {
-            (parser.ahead(at) == TokenKind::Name || parser.ahead(at).is_keyword())
-                && parser.ahead(at + 1) == TokenKind::Equals
+            parser.local_begins(at)
+                || parser.ahead(at).is_keyword() && parser.ahead(at + 1) == TokenKind::Equals
         };
         if begins(0, self) {
             let message = format!("missing `,` before {}", self.describe());

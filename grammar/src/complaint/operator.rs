@@ -1,6 +1,6 @@
 //! Missing and mistaken operators.
 
-use crate::ast::CompareOp;
+use crate::ast::{CompareOp, Expr};
 use crate::cursor::{Node, Parser};
 use crate::token::TokenKind;
 use crate::{Diagnostic, Span};
@@ -75,7 +75,11 @@ impl Parser<'_> {
         if twin != "==" {
             span = span.join(next);
         }
-        let hint = if twin == "==" && self.is_bare_equation(lhs) {
+        let updates = matches!(self.exprs[lhs.id], Expr::Member { .. });
+        let hint = if twin == "==" && self.is_bare_equation(lhs) && updates {
+            let lhs = self.short(lhs.span);
+            format!("write `==` to compare; components are replaced in `… where {lhs} = …`")
+        } else if twin == "==" && self.is_bare_equation(lhs) {
             let lhs = self.short(lhs.span);
             format!(
                 "write `==` to compare; for the curve where both sides agree write `{lhs} - (…)`"

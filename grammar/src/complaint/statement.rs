@@ -1,6 +1,6 @@
 //! Statements that are not what they should be.
 
-use crate::ast::{MAX_NESTING, Name};
+use crate::ast::{Expr, MAX_NESTING, Name};
 use crate::cursor::{Node, Parser};
 use crate::layout::StatementKind;
 use crate::stray::shorten;
@@ -16,6 +16,11 @@ impl Parser<'_> {
         let word = self.bump();
         let name = self.short(self.span());
         let text = word.text(self.text);
+        if is_loop(text) {
+            self.complain_foreign_loop(word);
+            self.abandon();
+            return;
+        }
         let hint = if is_foreign_word(text) {
             format!("remove it: a definition is `{name} = …` or `{name}(x) = …`")
         } else if self.ahead(1) == TokenKind::Equals {
@@ -30,6 +35,58 @@ impl Parser<'_> {
                 .with_label("expected `name =`, `name(params) =`, `param` or `show`")
                 .with_hint(hint),
         );
+    }
+
+    /// Whether a name that nothing defines begins a loop of another language.
+    pub(crate) fn is_foreign_loop(&self, name: &Name) -> bool {
+        is_loop(&name.text) && self.begins_operand()
+    }
+
+    /// Leaves the rest of a statement unread that has a loop of another language in it.
+    #[cold]
+    pub(crate) fn foreign_loop(&mut self, name: &Name) -> Node {
+        self.complain_foreign_loop(name.span);
+        let node = self.error_node(name.span);
+        self.abandon();
+        node
+    }
+
+    /// `for k in 1..n`, `while c`; the word has been passed.
+    #[cold]
+    fn complain_foreign_loop(&mut self, word: Span) {
+        let hint = if word.text(self.text) == "while" {
+            "write `iterate(n, z = start, step until condition)`; it ends where the condition holds"
+                .to_owned()
+        } else {
+            let range = if self.running_follows() {
+                self.range_ahead()
+            } else {
+                "k in 1..n".to_owned()
+            };
+            format!("write `sum({range}, term)`, `product(…)`, or `iterate(n, z = start, step)`")
+        };
+        let message = format!("{} is no word of the language", self.quote(word));
+        self.complain(
+            Diagnostic::error("foreign-loop", word, message)
+                .with_label("a loop is an expression with a value here")
+                .with_hint(hint),
+        );
+    }
+
+    /// The text of the range that begins here, if it ends soon; else a range as an example.
+    fn range_ahead(&self) -> String {
+        let ends = |n: &usize| {
+            use TokenKind::{Colon, Comma, End, LBrace, LParen, RBrace, RParen};
+            matches!(
+                self.ahead(*n),
+                End | Comma | Colon | LParen | RParen | LBrace | RBrace
+            )
+        };
+        let end = (2..12).find(ends).unwrap_or(2);
+        if (2..end).any(|n| self.ahead(n) == TokenKind::DotDot) {
+            return self.short(self.span().join(self.span_ahead(end - 1)));
+        }
+        format!("{} in 1..n", self.short(self.span()))
     }
 
     /// Complains once about what a statement leaves unread, and reads it for further problems.
@@ -95,10 +152,30 @@ impl Parser<'_> {
         } else {
             lower.span
         };
+        let in_form = self.open_parens > 0 && self.statement != StatementKind::Param;
+        let hint = match &self.exprs[lower.id] {
+            Expr::Vector(ends) if ends.len() == 2 => {
+                let ends: Vec<String> = ends
+                    .iter()
+                    .map(|&end| self.short(self.exprs.span(end)))
+                    .collect();
+                format!("write `in {}`", ends.join(".."))
+            }
+            _ if self.at(TokenKind::Colon)
+                && matches!(self.ahead(1), TokenKind::Number | TokenKind::Name) =>
+            {
+                let upper = self.short(self.span_ahead(1));
+                format!("write `in {}..{upper}`", self.short(lower.span))
+            }
+            Expr::Number(_) | Expr::Name(_) if in_form => {
+                format!("write `in 1..{}`", self.short(lower.span))
+            }
+            _ => "write `in lo..hi`".to_owned(),
+        };
         self.complain(
             Diagnostic::error("bad-range", span, "a range has two ends")
                 .with_label("expected `lo..hi`")
-                .with_hint("write `in lo..hi`"),
+                .with_hint(hint),
         );
         if !self.at(TokenKind::End) && (self.open_parens, self.open_braces) == (0, 0) {
             self.bump();
@@ -188,15 +265,11 @@ impl Parser<'_> {
         }
         may
     }
+}
 
-    /// Comes back from arguments, in which these names held.
-    pub(crate) fn leave_arguments(&mut self, bound: &[Span]) {
-        let text = self.text;
-        for name in bound {
-            self.scope.unbind(name.text(text));
-        }
-        self.ascend();
-    }
+/// Words with which loops begin in other languages.
+fn is_loop(word: &str) -> bool {
+    matches!(word, "for" | "foreach" | "while" | "repeat")
 }
 
 /// Words with which definitions begin in other languages.

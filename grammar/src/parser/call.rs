@@ -1,12 +1,12 @@
 //! Calls.
 
-use crate::Span;
 use crate::ast::{BinaryOp, Expr, ExprId, Name};
 use crate::cursor::{Node, Parser};
+use crate::scope::Form;
 use crate::token::TokenKind;
 
 impl Parser<'_> {
-    /// `call = NAME { "'" } [ SUPERSCRIPT | "^" NUMBER ] arguments`
+    /// `call = NAME { "'" } [ SUPERSCRIPT | "^" NUMBER ] ( arguments [ arguments ] | series | iteration | integration )`
     pub(crate) fn call(&mut self, callee: Name, primes: u32) -> Node {
         let exponent = if self.at(TokenKind::LParen) {
             None
@@ -16,68 +16,55 @@ impl Parser<'_> {
         } else {
             return self.no_arguments(callee, primes);
         };
-        let start = callee.span;
-        let Some(args) = self.arguments(&callee.text) else {
-            let whole = start.join(self.last_span());
+        if !self.enter_arguments() {
+            let whole = callee.span.join(self.last_span());
             return self.error_node(whole);
+        }
+        let form = self.form_of(&callee);
+        if form.is_some() && primes > 0 {
+            self.complain_prime_of_form(&callee);
+        }
+        let call = match form {
+            Some(Form::Series(kind)) => self.series(kind, &callee),
+            Some(Form::Iterate) => self.iteration(&callee),
+            Some(Form::Integral) => self.integration(&callee),
+            None => {
+                let mut args = self.arguments(&callee.text);
+                if self.point_follows(&callee, &args) {
+                    args.extend(self.arguments(""));
+                    self.check_point(&callee, &args);
+                }
+                let span = callee.span.join(self.last_span());
+                let expr = Expr::Call {
+                    callee,
+                    primes,
+                    args,
+                };
+                self.node(expr, span)
+            }
         };
-        let span = start.join(self.last_span());
-        let expr = Expr::Call {
-            callee,
-            primes,
-            args,
-        };
-        let call = self.node(expr, span);
+        self.ascend();
         match exponent {
             Some(exponent) => self.binary(BinaryOp::Pow, call, exponent),
             None => call,
         }
     }
 
-    /// `arguments = "(" [ ( expr | binding ) { "," ( expr | binding ) } ] ")"`; none where a binding was among them
-    fn arguments(&mut self, callee: &str) -> Option<Vec<ExprId>> {
-        if !self.enter_arguments() {
-            return None;
-        }
-        let binds = self.scope.binds_in_arguments(callee);
-        let takes_functions = self.scope.takes_functions(callee);
+    /// `arguments = "(" [ expr { "," expr } ] ")"`
+    fn arguments(&mut self, callee: &str) -> Vec<ExprId> {
         let opened = self.open();
         let mut args = Vec::new();
-        let mut bound = Vec::new();
         if self.at(TokenKind::RParen) {
             self.close(&opened);
-        } else {
-            loop {
-                if binds && self.binding_follows() {
-                    if bound.is_empty() {
-                        self.complain_not_yet();
-                    }
-                    bound.push(self.binding());
-                } else {
-                    self.takes_functions = takes_functions;
-                    args.push(self.expr().id);
-                    self.takes_functions = false;
-                }
-                if !self.separator(&opened) {
-                    break;
-                }
+            return args;
+        }
+        self.takes_functions = self.scope.takes_function(callee);
+        loop {
+            args.push(self.expr().id);
+            self.takes_functions = false;
+            if !self.separator(&opened) {
+                return args;
             }
         }
-        self.leave_arguments(&bound);
-        bound.is_empty().then_some(args)
-    }
-
-    /// `binding = NAME "in" range | NAME "=" disjunction`
-    fn binding(&mut self) -> Span {
-        let name = self.span();
-        self.bump();
-        self.scope.bind(name.text(self.text));
-        if self.eat(TokenKind::In) {
-            self.range();
-        } else {
-            self.eat(TokenKind::Equals);
-            self.disjunction();
-        }
-        name
     }
 }

@@ -26,15 +26,11 @@ impl Parser<'_> {
         node
     }
 
-    /// `local = NAME "=" disjunction`
+    /// `local = NAME [ "." NAME ] "=" disjunction`
     fn local(&mut self) -> Option<Local> {
-        let name = self.expect_local()?;
+        let (name, field) = self.expect_local()?;
         let value = self.disjunction().id;
-        Some(Local {
-            name,
-            field: None,
-            value,
-        })
+        Some(Local { name, field, value })
     }
 
     /// `conditional = "if" disjunction "then" disjunction "else" disjunction`

@@ -5,6 +5,7 @@
 mod arithmetic;
 mod call;
 mod expression;
+mod form;
 mod logic;
 mod postfix;
 mod primary;

@@ -41,6 +41,7 @@ impl Parser<'_> {
         let opens = self.at(TokenKind::LParen);
         match self.scope.role(&name.text) {
             Role::Function => self.call(name, primes),
+            Role::Unknown if self.is_foreign_loop(&name) => self.foreign_loop(&name),
             Role::Unknown if opens && (is_adjacent || primes > 0) => self.call(name, primes),
             _ => {
                 if primes > 0 {
