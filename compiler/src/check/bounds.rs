@@ -69,10 +69,8 @@ impl Interval {
 
     fn plus(self, other: Self) -> Self {
         let opposite = |a: f64, b: f64| a.is_infinite() && b.is_infinite();
-        let nan = self.nan
-            || other.nan
-            || opposite(self.lo, other.hi)
-            || opposite(self.hi, other.lo);
+        let nan =
+            self.nan || other.nan || opposite(self.lo, other.hi) || opposite(self.hi, other.lo);
         let (lo, hi) = (self.lo + other.lo, self.hi + other.hi);
         let lo = if lo.is_nan() { f64::NEG_INFINITY } else { lo };
         let hi = if hi.is_nan() { f64::INFINITY } else { hi };

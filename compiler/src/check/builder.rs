@@ -172,7 +172,7 @@ impl<'a> Builder<'a> {
                 self.choice(arms.iter().copied(), *otherwise, span)
             }
             Expr::Where { body, locals } => self.locals(*body, locals),
-            Expr::Series { kind, ranges, term } => self.series(*kind, ranges, *term, span),
+            Expr::Series { kind, ranges, term } => self.series(*kind, ranges, *term),
             Expr::Iterate {
                 count,
                 states,
@@ -183,7 +183,6 @@ impl<'a> Builder<'a> {
                 states,
                 steps,
                 until: *until,
-                span,
             }),
             Expr::Integral { .. } => Value::Error,
         }

@@ -19,7 +19,6 @@ pub(super) struct Iteration<'a> {
     pub states: &'a [(Name, ExprId)],
     pub steps: &'a [ExprId],
     pub until: Option<ExprId>,
-    pub span: Span,
 }
 
 /// How many steps a loop does.
@@ -42,13 +41,7 @@ struct Body {
 
 impl<'a> Builder<'a> {
     /// A series: one loop for each running variable, the first outermost.
-    pub(super) fn series(
-        &mut self,
-        kind: SeriesKind,
-        ranges: &'a [Range],
-        term: ExprId,
-        span: Span,
-    ) -> Value {
+    pub(super) fn series(&mut self, kind: SeriesKind, ranges: &'a [Range], term: ExprId) -> Value {
         let Some((range, inner)) = ranges.split_first() else {
             return self.expr(term);
         };
@@ -76,7 +69,7 @@ impl<'a> Builder<'a> {
         let depth = self.scope.len();
         self.name_value(&range.name.text, &running);
         self.scope.push(&range.name.text, running);
-        let value = self.series(kind, inner, term, span);
+        let value = self.series(kind, inner, term);
         self.scope.truncate(depth);
         let inside = self.nesting.leave(limit, before);
         match steps {
@@ -149,7 +142,9 @@ impl<'a> Builder<'a> {
         let results = self.repeat(binder, steps, None, states, inside);
         match value {
             Value::Vector(_) => Value::Vector(results),
-            _ => results.first().map_or(Value::Error, |&id| Value::Scalar(id)),
+            _ => results
+                .first()
+                .map_or(Value::Error, |&id| Value::Scalar(id)),
         }
     }
 
@@ -330,7 +325,10 @@ impl<'a> Builder<'a> {
             Diagnostic::error(
                 "type-mismatch",
                 span,
-                format!("{} starts as {was}, but a step makes it {is}", quoted(&name.text)),
+                format!(
+                    "{} starts as {was}, but a step makes it {is}",
+                    quoted(&name.text)
+                ),
             )
             .with_label(format!("this is {is}"))
             .with_related(started, format!("this is {was}"))
@@ -518,10 +516,7 @@ impl<'a> Builder<'a> {
                     "give the parameter a range: `param {} = … in 0..100`",
                     shortened(&param.name.text)
                 )),
-            None => problem.with_hint(format!(
-                "state a maximum: min({}, 1000)",
-                shortened(&text)
-            )),
+            None => problem.with_hint(format!("state a maximum: min({}, 1000)", shortened(&text))),
         };
         self.report(problem);
     }

@@ -1,6 +1,8 @@
 //! Names: every name that is used must mean something, and no definition may need itself.
 
-use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Local, Name, Setting};
+mod binding;
+
+use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Name, Setting};
 use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -67,7 +69,8 @@ struct Walk<'a, 'd> {
     exprs: &'a Exprs,
     symbols: &'d Symbols<'a>,
     diagnostics: &'d mut Vec<Diagnostic>,
-    scope: Scope<'a, ()>,
+    /// Names that hold here, each with whether it has been used since that was last asked.
+    scope: Scope<'a, bool>,
     /// Locals whose definitions come later.
     pending: Vec<&'a Name>,
     /// Whether free variables are inputs.
@@ -129,7 +132,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.scope = function
             .params
             .iter()
-            .map(|p| (p.name.text.as_str(), ()))
+            .map(|p| (p.name.text.as_str(), false))
             .collect();
         self.definition(&function.name.text, function.body);
         self.scope.truncate(0);
@@ -213,7 +216,14 @@ impl<'a, 'd> Walk<'a, 'd> {
                 otherwise.iter().for_each(|e| self.expr(*e));
             }
             Expr::Where { body, locals } => self.locals(*body, locals),
-            Expr::Series { .. } | Expr::Iterate { .. } | Expr::Integral { .. } => {}
+            Expr::Series { ranges, term, .. } => self.series(ranges, *term),
+            Expr::Iterate {
+                count,
+                states,
+                steps,
+                until,
+            } => self.iteration(*count, states, steps, *until),
+            Expr::Integral { .. } => {}
         }
     }
 
@@ -223,7 +233,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         let depth = self.scope.len();
         for &arg in args.iter().skip(1) {
             if let Expr::Name(name) = &self.exprs[arg] {
-                self.scope.push(&name.text, ());
+                self.scope.push(&name.text, false);
             }
         }
         for &arg in args {
@@ -232,31 +242,6 @@ impl<'a, 'd> Walk<'a, 'd> {
                 self.expr(arg);
             }
         }
-        self.scope.truncate(depth);
-    }
-
-    fn locals(&mut self, body: ExprId, locals: &'a [Local]) {
-        let depth = self.scope.len();
-        let pending = self.pending.len();
-        self.pending
-            .extend(locals.iter().rev().map(|local| &local.name));
-        let mut seen: FxHashMap<&str, Span> = FxHashMap::default();
-        for Local { name, value, .. } in locals {
-            if let Some(problem) = reserved(name) {
-                self.diagnostics.push(problem);
-            }
-            match seen.get(name.text.as_str()) {
-                Some(&first) => self.diagnostics.push(duplicate(name, first)),
-                None => {
-                    seen.insert(&name.text, name.span);
-                }
-            }
-            self.expr(*value);
-            self.pending.pop();
-            self.scope.push(&name.text, ());
-        }
-        self.pending.truncate(pending);
-        self.expr(body);
         self.scope.truncate(depth);
     }
 
@@ -269,7 +254,8 @@ impl<'a, 'd> Walk<'a, 'd> {
 
     fn name(&mut self, name: &'a Name) {
         let text = name.text.as_str();
-        if self.scope.get(text).is_some() {
+        if let Some(used) = self.scope.get_mut(text) {
+            *used = true;
             return;
         }
         if self.symbols.constants.contains_key(text) {
@@ -500,14 +486,6 @@ impl<'a, 'd> Walk<'a, 'd> {
 pub fn not_constant(span: Span, what: &str) -> Diagnostic {
     Diagnostic::error("not-constant", span, format!("{what} must be a constant"))
         .with_hint("it may use numbers and constants, but no parameters, inputs or `time`")
-}
-
-fn duplicate(name: &Name, first: Span) -> Diagnostic {
-    let message = format!("{} is defined twice", quoted(&name.text));
-    Diagnostic::error("duplicate-definition", name.span, message)
-        .with_label("defined again")
-        .with_related(first, "first defined here")
-        .with_hint("rename one of them")
 }
 
 fn unknown_type(ty: &Name) -> Diagnostic {

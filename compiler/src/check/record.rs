@@ -18,6 +18,9 @@ pub struct Record {
     pub members: Vec<(String, Value)>,
 }
 
+type Items = SmallVec<[Id; 4]>;
+type Places = SmallVec<[usize; 4]>;
+
 impl Record {
     fn member(&self, name: &str) -> Option<&Value> {
         let mut named = self.members.iter().filter(|member| member.0 == name);
@@ -51,10 +54,7 @@ impl<'a> Builder<'a> {
                 let name = shortened(&name.text);
                 format!("name one of them: `{name}.{}`", shortened(first))
             }
-            _ => format!(
-                "name one of them: `r.{} where r = …`",
-                shortened(first)
-            ),
+            _ => format!("name one of them: `r.{} where r = …`", shortened(first)),
         };
         self.report(
             Diagnostic::error(
@@ -93,8 +93,7 @@ impl<'a> Builder<'a> {
 
     /// Components of a vector.
     fn swizzle(&mut self, value: &Value, field: &Name) -> Value {
-        let (Some(items), Some(places)) = (self.components(value, field), self.places(value, field))
-        else {
+        let Some((items, places)) = self.components(value, field) else {
             return Value::Error;
         };
         let ids: SmallVec<[Id; 4]> = places.iter().map(|&k| items[k]).collect();
@@ -104,9 +103,11 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn components(&mut self, value: &Value, field: &Name) -> Option<SmallVec<[Id; 4]>> {
+    /// The components of a vector, and which of them the letters of a swizzle mean.
+    fn components(&mut self, value: &Value, field: &Name) -> Option<(Items, Places)> {
         if let Value::Vector(items) = value {
-            return Some(items.clone());
+            let places = self.places(items.len(), field)?;
+            return Some((items.clone(), places));
         }
         let ty = value.ty(&self.graph)?;
         let problem = Diagnostic::error(
@@ -122,10 +123,9 @@ impl<'a> Builder<'a> {
         None
     }
 
-    /// Which components of a vector the letters of a swizzle mean, one to four.
-    fn places(&mut self, value: &Value, field: &Name) -> Option<SmallVec<[usize; 4]>> {
-        let size = value.ids().len();
-        let mut places = SmallVec::new();
+    /// One to four components of a vector of this size.
+    fn places(&mut self, size: usize, field: &Name) -> Option<Places> {
+        let mut places = Places::new();
         for letter in field.text.chars() {
             let index = "xyzw".find(letter).or_else(|| "rgba".find(letter));
             match index.filter(|&k| k < size) {
@@ -169,9 +169,7 @@ impl<'a> Builder<'a> {
             other => other,
         };
         let new = self.expr(local.value);
-        let (Some(mut items), Some(places)) =
-            (self.components(&old, field), self.places(&old, field))
-        else {
+        let Some((mut items, places)) = self.components(&old, field) else {
             return Value::Error;
         };
         let mut letters = field.text.chars();

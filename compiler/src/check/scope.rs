@@ -44,6 +44,12 @@ impl<'a, T> Scope<'a, T> {
         self.entries.get(*place).map(|entry| &entry.meaning)
     }
 
+    /// [`Self::get`], to be changed.
+    pub fn get_mut(&mut self, name: &str) -> Option<&mut T> {
+        let place = self.innermost.get(name)?;
+        self.entries.get_mut(*place).map(|entry| &mut entry.meaning)
+    }
+
     /// Number of entries, to be given to [`Self::truncate`].
     pub fn len(&self) -> usize {
         self.entries.len()
