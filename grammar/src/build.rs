@@ -1,9 +1,11 @@
 //! Steps of the productions that build nodes or look at names, and have no syntax of their own.
 
+use std::ops::Range;
+
 use crate::Span;
 use crate::ast::{BinaryOp, Expr, Name, UnaryOp};
 use crate::cursor::{Node, Parser};
-use crate::scope::FREE_VARIABLES;
+use crate::scope::{FREE_VARIABLES, Role};
 use crate::token::TokenKind;
 
 impl Parser<'_> {
@@ -40,6 +42,12 @@ impl Parser<'_> {
             text: span.text(self.text).to_owned(),
             span,
         }
+    }
+
+    /// What a name of the text stands for here.
+    pub(crate) fn role_of(&mut self, name: &Name) -> Role {
+        let text = self.text;
+        self.scope.role_of_text(name.span.text(text))
     }
 
     /// Goes past the primes here and counts them.
@@ -122,15 +130,16 @@ impl Parser<'_> {
     /// The locals of the expression that begins at token `start` begin to hold.
     pub(crate) fn bind_locals(&mut self, start: usize) {
         let layout = self.layout;
-        for name in layout.locals(start) {
+        for name in layout.locals(start, 0) {
             self.scope.bind(self.token_text(name));
         }
     }
 
-    /// The locals of the expression that began at token `start` end to hold.
-    pub(crate) fn unbind_locals(&mut self, start: usize) {
+    /// The locals at the tokens `names` of the expression that began at token `start` end to hold.
+    pub(crate) fn unbind_locals(&mut self, start: usize, names: Range<usize>) {
         let layout = self.layout;
-        for name in layout.locals(start) {
+        let ended = layout.locals(start, names.start);
+        for name in ended.take_while(|name| *name < names.end) {
             self.scope.unbind(self.token_text(name));
         }
     }

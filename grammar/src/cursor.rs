@@ -1,6 +1,7 @@
 //! What the productions stand on: a place in the tokens of one statement, the arena, and the complaints so far.
 
 use crate::ast::{Expr, ExprId, Exprs, MAX_NESTING};
+use crate::diagnostic::MAX_DIAGNOSTICS;
 use crate::layout::{Layout, Statement, StatementKind};
 use crate::scope::Scope;
 use crate::token::{Token, TokenKind};
@@ -29,15 +30,26 @@ pub(crate) struct Parser<'a> {
     pub(crate) is_broken: bool,
     tokens: &'a [Token],
     at: usize,
+    /// Kind of the token at `at`.
+    here: TokenKind,
     start: usize,
     end: usize,
-    /// Nesting of each expression in the arena, left operands not counted.
-    heights: Vec<usize>,
+    /// Nesting of each expression in the arena, left operands not counted; at most [`MAX_NESTING`].
+    heights: Vec<u8>,
     depth: usize,
     /// The token at which a problem has been reported: a second one there would be its consequence.
     complained_at: Option<usize>,
     abandoned: bool,
+    errors: usize,
+    warnings: usize,
+    /// Whether the statements before have as many errors, or warnings, as are listed.
+    is_full: bool,
+    warns_enough: bool,
 }
+
+/// Most errors, and most warnings, that are kept of one statement: more than are listed, as they are not found quite
+/// in the order of the text.
+const MAX_KEPT: usize = 20 * MAX_DIAGNOSTICS;
 
 /// An expression that has been read, with the span that includes its brackets.
 #[derive(Clone, Copy, Debug)]
@@ -68,20 +80,25 @@ impl<'a> Parser<'a> {
             is_broken: false,
             tokens,
             at: 0,
+            here: TokenKind::End,
             start: 0,
             end: 0,
             heights: Vec::new(),
             depth: 0,
             complained_at: None,
             abandoned: false,
+            errors: 0,
+            warnings: 0,
+            is_full: false,
+            warns_enough: false,
         }
     }
 
     /// Goes to the beginning of a statement.
     pub(crate) fn enter(&mut self, statement: &Statement) {
-        self.at = statement.start;
         self.start = statement.start;
         self.end = statement.end.min(self.tokens.len());
+        self.go_to(statement.start);
         self.statement = statement.kind;
         self.depth = 0;
         self.bars = 0;
@@ -92,6 +109,14 @@ impl<'a> Parser<'a> {
         self.in_condition = false;
         self.complained_at = None;
         self.abandoned = false;
+        self.is_full = self.errors > MAX_DIAGNOSTICS;
+        self.warns_enough = self.warnings > MAX_DIAGNOSTICS;
+    }
+
+    /// Goes to the token with this index.
+    fn go_to(&mut self, at: usize) {
+        self.at = at;
+        self.here = self.ahead(0);
     }
 
     /// Index of the token here.
@@ -101,7 +126,7 @@ impl<'a> Parser<'a> {
 
     /// Kind of the token here, [`TokenKind::End`] at the end of the statement.
     pub(crate) fn kind(&self) -> TokenKind {
-        self.ahead(0)
+        self.here
     }
 
     /// Kind of the token `n` places on.
@@ -128,7 +153,7 @@ impl<'a> Parser<'a> {
 
     /// Whether a token of this kind is here.
     pub(crate) fn at(&self, kind: TokenKind) -> bool {
-        self.kind() == kind
+        self.here == kind
     }
 
     /// Place of the token here; the empty place behind the last token at the end of the statement.
@@ -190,7 +215,7 @@ impl<'a> Parser<'a> {
     pub(crate) fn bump(&mut self) -> Span {
         let span = self.span();
         if self.at < self.end {
-            self.at += 1;
+            self.go_to(self.at + 1);
         }
         span
     }
@@ -215,16 +240,16 @@ impl<'a> Parser<'a> {
 
     /// Adds an expression to the arena, unless it is nested too deeply.
     pub(crate) fn node(&mut self, expr: Expr, span: Span) -> Node {
-        let mut height = 0;
+        let mut height = 0_u8;
         let lhs = match expr {
             Expr::Binary { op, lhs, .. } if op != crate::ast::BinaryOp::Pow => Some(lhs),
             _ => None,
         };
         expr.for_each_child(|child| {
             let below = self.heights.get(child.index()).copied().unwrap_or(0);
-            height = height.max(below + usize::from(Some(child) != lhs));
+            height = height.max(below.saturating_add(u8::from(Some(child) != lhs)));
         });
-        if height > MAX_NESTING {
+        if usize::from(height) > MAX_NESTING {
             self.complain_too_deep(span);
             return self.error_node(span);
         }
@@ -270,7 +295,7 @@ impl<'a> Parser<'a> {
 
     /// Leaves the rest of the statement unread.
     pub(crate) fn abandon(&mut self) {
-        self.at = self.end;
+        self.go_to(self.end);
         self.complained_at = Some(self.end);
         self.abandoned = true;
     }
@@ -284,8 +309,43 @@ impl<'a> Parser<'a> {
     pub(crate) fn complain(&mut self, diagnostic: Diagnostic) {
         if self.complained_at != Some(self.at) {
             self.complained_at = Some(self.at);
+            self.report(diagnostic);
+        }
+    }
+
+    /// Adds a problem, unless it would not be listed.
+    pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
+        let (count, is_full) = if diagnostic.is_error() {
+            (&mut self.errors, self.is_full)
+        } else {
+            (&mut self.warnings, self.warns_enough)
+        };
+        if !is_full && *count < MAX_KEPT {
+            *count += 1;
             self.diagnostics.push(diagnostic);
         }
+    }
+
+    /// Removes the last problem, an error, and returns its place.
+    pub(crate) fn take_back(&mut self) -> Option<Span> {
+        self.errors = self.errors.saturating_sub(1);
+        self.diagnostics.pop().map(|last| last.span)
+    }
+
+    /// Whether an error at the token here would not be listed, so that its text need not be made: it follows from one
+    /// that has been reported, or there are too many before.
+    pub(crate) fn is_hushed(&mut self) -> bool {
+        let is_hushed =
+            self.complained_at == Some(self.at) || self.is_full || self.errors >= MAX_KEPT;
+        if is_hushed {
+            self.complained_at = Some(self.at);
+        }
+        is_hushed
+    }
+
+    /// Whether a warning would not be listed.
+    pub(crate) fn warns_enough(&self) -> bool {
+        self.warns_enough || self.warnings >= MAX_KEPT
     }
 
     /// A problem at the token here has been reported.

@@ -47,9 +47,9 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// The name tokens of the locals that hold in the expression that begins at token `start`.
-    pub(crate) fn locals(&self, start: usize) -> impl Iterator<Item = usize> + '_ {
-        let first = self.locals.partition_point(|local| local.0 < start);
+    /// The name tokens from `from` on of the locals that hold in the expression that begins at token `start`.
+    pub(crate) fn locals(&self, start: usize, from: usize) -> impl Iterator<Item = usize> + '_ {
+        let first = self.locals.partition_point(|local| *local < (start, from));
         let rest = self.locals.get(first..).unwrap_or_default();
         rest.iter()
             .take_while(move |local| local.0 == start)

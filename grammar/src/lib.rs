@@ -31,6 +31,7 @@ mod parser;
 mod piece;
 mod printer;
 mod render;
+mod same;
 mod scope;
 mod stray;
 
@@ -39,4 +40,5 @@ pub use format::format;
 pub use parse::{Parsed, parse, parse_bytes};
 pub use printer::{print, print_expr, print_item};
 pub use render::render;
+pub use same::same_tree;
 pub use span::Span;

@@ -1,6 +1,6 @@
 //! Which names are functions and which are values: what decides between a call and a product.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use crate::ast::SeriesKind;
 
@@ -38,8 +38,8 @@ pub(crate) enum Form {
 impl Form {
     fn of(name: &str) -> Option<Self> {
         Some(match name {
-            "sum" | "∑" => Self::Series(SeriesKind::Sum),
-            "product" | "∏" => Self::Series(SeriesKind::Product),
+            "sum" => Self::Series(SeriesKind::Sum),
+            "product" => Self::Series(SeriesKind::Product),
             "iterate" => Self::Iterate,
             "integral" => Self::Integral,
             _ => return None,
@@ -79,12 +79,35 @@ pub(crate) enum Role {
     Unknown,
 }
 
+/// What is known of a name at the place that is being read.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    /// What it is where the file says nothing of it.
+    own: Role,
+    is_function: bool,
+    is_constant: bool,
+    /// Parameters, locals and running variables of this name that hold.
+    bound: u32,
+}
+
+impl Entry {
+    fn role(&self) -> Role {
+        if self.bound > 0 {
+            Role::Value
+        } else if self.is_function {
+            Role::Function
+        } else if self.is_constant {
+            Role::Value
+        } else {
+            self.own
+        }
+    }
+}
+
 /// The names of the file and those bound at the place that is being read.
 pub(crate) struct Scope<'a> {
     is_builtin: &'a dyn Fn(&str) -> bool,
-    functions: HashSet<&'a str>,
-    constants: HashSet<&'a str>,
-    bound: HashMap<&'a str, u32>,
+    names: HashMap<&'a str, Entry>,
 }
 
 impl<'a> Scope<'a> {
@@ -92,37 +115,47 @@ impl<'a> Scope<'a> {
     pub(crate) fn new(is_builtin: &'a dyn Fn(&str) -> bool) -> Self {
         Self {
             is_builtin,
-            functions: HashSet::new(),
-            constants: HashSet::new(),
-            bound: HashMap::new(),
+            names: HashMap::new(),
         }
+    }
+
+    fn entry(&mut self, name: &'a str) -> &mut Entry {
+        let name = in_letters(name);
+        let is_builtin = self.is_builtin;
+        self.names.entry(name).or_insert_with(|| Entry {
+            own: own_role(is_builtin, name),
+            is_function: false,
+            is_constant: false,
+            bound: 0,
+        })
     }
 
     /// Adds a function of the file.
     pub(crate) fn define_function(&mut self, name: &'a str) {
-        self.functions.insert(name);
+        self.entry(name).is_function = true;
     }
 
     /// Adds a constant or a `param` of the file.
     pub(crate) fn define_constant(&mut self, name: &'a str) {
-        self.constants.insert(name);
+        self.entry(name).is_constant = true;
     }
 
     /// A parameter or local begins to hold.
     pub(crate) fn bind(&mut self, name: &'a str) {
-        *self.bound.entry(name).or_default() += 1;
+        self.entry(name).bound += 1;
     }
 
     /// A parameter or local ends to hold.
     pub(crate) fn unbind(&mut self, name: &str) {
-        if let Some(count) = self.bound.get_mut(name) {
-            *count = count.saturating_sub(1);
+        if let Some(entry) = self.names.get_mut(in_letters(name)) {
+            entry.bound = entry.bound.saturating_sub(1);
         }
     }
 
     /// Whether the file defines a function of this name.
     pub(crate) fn defines_function(&self, name: &str) -> bool {
-        self.functions.contains(name)
+        let entry = self.names.get(in_letters(name));
+        entry.is_some_and(|entry| entry.is_function)
     }
 
     /// Whether the name is a builtin function, shadowed or not.
@@ -132,33 +165,50 @@ impl<'a> Scope<'a> {
 
     /// What the name stands for here.
     pub(crate) fn role(&self, name: &str) -> Role {
-        if self.bound.get(name).is_some_and(|&count| count > 0) {
-            Role::Value
-        } else if self.functions.contains(name) {
-            Role::Function
-        } else if self.constants.contains(name) {
-            Role::Value
-        } else if (self.is_builtin)(name) || OPERATORS.contains(&name) || Form::of(name).is_some() {
-            Role::Function
-        } else if VALUES.contains(&name) {
-            Role::Value
-        } else {
-            Role::Unknown
+        let name = in_letters(name);
+        match self.names.get(name) {
+            Some(entry) => entry.role(),
+            None => own_role(self.is_builtin, name),
         }
+    }
+
+    /// What the name of the text stands for here, which is kept in mind.
+    pub(crate) fn role_of_text(&mut self, name: &'a str) -> Role {
+        self.entry(name).role()
     }
 
     /// The form that a call of this function is, if it is one.
     pub(crate) fn form(&self, callee: &str) -> Option<Form> {
-        Form::of(callee).filter(|_| !self.functions.contains(callee))
+        Form::of(in_letters(callee)).filter(|_| !self.defines_function(callee))
     }
 
     /// Whether the first argument of the call may be the bare name of a function.
     pub(crate) fn takes_function(&self, callee: &str) -> bool {
-        OPERATORS.contains(&callee) && !self.functions.contains(callee)
+        OPERATORS.contains(&callee) && !self.defines_function(callee)
     }
 
     /// Whether `callee(f)(x, y)` is `callee(f, x, y)`.
     pub(crate) fn takes_point(&self, callee: &str) -> bool {
         callee != "quadrature" && self.takes_function(callee)
+    }
+}
+
+/// The word for which a sign stands, so that whoever defines one of them hides both.
+fn in_letters(name: &str) -> &str {
+    match name {
+        "∑" => "sum",
+        "∏" => "product",
+        _ => name,
+    }
+}
+
+/// What a name stands for where nothing in the file is called so.
+fn own_role(is_builtin: &dyn Fn(&str) -> bool, name: &str) -> Role {
+    if is_builtin(name) || OPERATORS.contains(&name) || Form::of(name).is_some() {
+        Role::Function
+    } else if VALUES.contains(&name) {
+        Role::Value
+    } else {
+        Role::Unknown
     }
 }

@@ -19,7 +19,8 @@ pub(crate) fn shorten(text: &str) -> String {
     let mut short = String::new();
     let mut blank = false;
     let mut length = 0;
-    for c in text.chars() {
+    // Blanks count too in how far this looks, as there may be millions of them.
+    for c in text.chars().take(100 * LIMIT) {
         if c.is_whitespace() || c.is_control() {
             blank = !short.is_empty();
             continue;

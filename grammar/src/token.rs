@@ -2,6 +2,7 @@
 
 use logos::Logos;
 
+use crate::diagnostic::MAX_DIAGNOSTICS;
 use crate::stray;
 use crate::{Diagnostic, Span};
 
@@ -282,7 +283,10 @@ pub fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
                 if culprit == ']' && squares > 0 {
                     squares -= 1;
                 } else {
-                    diagnostics.push(stray::complaint(culprit, span(place)));
+                    // Found in the order of the text: what is not listed need not be made.
+                    if diagnostics.len() <= MAX_DIAGNOSTICS {
+                        diagnostics.push(stray::complaint(culprit, span(place)));
+                    }
                 }
                 squares += usize::from(culprit == '[');
                 kind = stray::stands_for(culprit);

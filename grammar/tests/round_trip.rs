@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use pullback_grammar::ast::{
     BinaryOp, CompareOp, Constant, Expr, ExprId, Exprs, File, Formal, Formula, Function, Item,
-    Local, Name, Param, Setting, Show, UnaryOp,
+    Local, Name, Param, Range, SeriesKind, Setting, Show, UnaryOp,
 };
 use pullback_grammar::{Span, print, print_expr};
 use support::{read, show_file};
@@ -25,13 +25,31 @@ enum Plan {
     Vector(Vec<Plan>),
     If(Box<Plan>, Box<Plan>, Box<Plan>),
     Piecewise(Vec<(Plan, Plan)>, Option<Box<Plan>>),
-    Where(Box<Plan>, Vec<(&'static str, Plan)>),
+    Where(Box<Plan>, Vec<(&'static str, Option<&'static str>, Plan)>),
+    /// An operator of calculus on the bare name of a function, at a point.
+    Operator(&'static str, Vec<Plan>),
+    Series(SeriesKind, Vec<(&'static str, Plan, Plan)>, Box<Plan>),
+    /// The number of steps, each state's name, start and step, and the condition.
+    Iterate(
+        Box<Plan>,
+        Vec<(&'static str, Plan, Plan)>,
+        Option<Box<Plan>>,
+    ),
+    Integral(Box<Plan>, &'static str, Box<(Plan, Plan)>),
 }
 
 fn name(text: &str) -> Name {
     Name {
         text: text.to_owned(),
         span: Span::default(),
+    }
+}
+
+fn range(exprs: &mut Exprs, text: &str, lower: &Plan, upper: &Plan) -> Range {
+    Range {
+        name: name(text),
+        lower: build(exprs, lower),
+        upper: build(exprs, upper),
     }
 }
 
@@ -92,14 +110,49 @@ fn build(exprs: &mut Exprs, plan: &Plan) -> ExprId {
             let body = build(exprs, body);
             let locals = locals
                 .iter()
-                .map(|(text, plan)| Local {
+                .map(|(text, field, plan)| Local {
                     name: name(text),
-                    field: None,
+                    field: field.map(name),
                     value: build(exprs, plan),
                 })
                 .collect();
             Expr::Where { body, locals }
         }
+        Plan::Operator(callee, point) => {
+            let function = exprs.push(Expr::Name(name("sin")), Span::default());
+            let point = point.iter().map(|plan| build(exprs, plan));
+            let args = std::iter::once(function).chain(point).collect();
+            Expr::Call {
+                callee: name(callee),
+                primes: 0,
+                args,
+            }
+        }
+        Plan::Series(kind, ranges, term) => {
+            let ranges = ranges
+                .iter()
+                .map(|(text, lower, upper)| range(exprs, text, lower, upper))
+                .collect();
+            let term = build(exprs, term);
+            Expr::Series {
+                kind: *kind,
+                ranges,
+                term,
+            }
+        }
+        Plan::Iterate(count, states, until) => Expr::Iterate {
+            count: build(exprs, count),
+            states: states
+                .iter()
+                .map(|(text, start, _)| (name(text), build(exprs, start)))
+                .collect(),
+            steps: states.iter().map(|(.., step)| build(exprs, step)).collect(),
+            until: until.as_ref().map(|plan| build(exprs, plan)),
+        },
+        Plan::Integral(body, text, ends) => Expr::Integral {
+            body: build(exprs, body),
+            range: range(exprs, text, &ends.0, &ends.1),
+        },
     };
     exprs.push(expr, Span::default())
 }
@@ -126,7 +179,14 @@ fn plan() -> impl Strategy<Value = Plan> {
         let binary = prop::sample::select(&[Add, Sub, Mul, ImplicitMul, ImplicitMul, Div, Pow, And, Or][..]);
         let compare = prop::sample::select(&[Less, LessEqual, Greater, GreaterEqual, Equal, NotEqual][..]);
         let arms = prop::collection::vec((inner.clone(), inner.clone()), 1..3);
-        let locals = prop::collection::vec((prop::sample::select(&["a", "b", "unknown"][..]), inner.clone()), 1..3);
+        let fields = prop::sample::select(&[None, None, Some("x"), Some("zy"), Some("rgba")][..]);
+        let bound = prop::sample::select(&["a", "b", "unknown"][..]);
+        let locals = prop::collection::vec((bound.clone(), fields, inner.clone()), 1..3);
+        let ranges = prop::collection::vec((bound.clone(), inner.clone(), inner.clone()), 1..3);
+        let states = prop::collection::vec((bound.clone(), inner.clone(), inner.clone()), 1..4);
+        let operator = prop::sample::select(&["grad", "laplacian", "diff", "mean_curvature"][..]);
+        let series = prop::sample::select(&[SeriesKind::Sum, SeriesKind::Product][..]);
+        let ends = (inner.clone(), inner.clone()).prop_map(Box::new);
         prop_oneof![
             4 => (unary, boxed.clone()).prop_map(|(op, arg)| Plan::Unary(op, arg)),
             8 => (binary, boxed.clone(), boxed.clone()).prop_map(|(op, a, b)| Plan::Binary(op, a, b)),
@@ -138,7 +198,12 @@ fn plan() -> impl Strategy<Value = Plan> {
             1 => prop::collection::vec(inner.clone(), 2..5).prop_map(Plan::Vector),
             1 => (boxed.clone(), boxed.clone(), boxed.clone()).prop_map(|(c, a, b)| Plan::If(c, a, b)),
             1 => (arms, prop::option::of(boxed.clone())).prop_map(|(arms, other)| Plan::Piecewise(arms, other)),
-            1 => (boxed, locals).prop_map(|(body, locals)| Plan::Where(body, locals)),
+            1 => (boxed.clone(), locals).prop_map(|(body, locals)| Plan::Where(body, locals)),
+            1 => (operator, prop::collection::vec(inner.clone(), 0..3)).prop_map(|(op, point)| Plan::Operator(op, point)),
+            1 => (series, ranges, boxed.clone()).prop_map(|(kind, ranges, term)| Plan::Series(kind, ranges, term)),
+            1 => (boxed.clone(), states, prop::option::of(boxed.clone()))
+                .prop_map(|(count, states, until)| Plan::Iterate(count, states, until)),
+            1 => (boxed, bound, ends).prop_map(|(body, name, ends)| Plan::Integral(body, name, ends)),
         ]
     })
 }

@@ -80,6 +80,18 @@ const PIECES: &[&str] = &[
     "a = ",
     "where a = ",
     "sum(k in 1..n, ",
+    "sum(",
+    "∑(",
+    "k in 1..3, ",
+    "z = 0, ",
+    "iterate(9, z = 0, ",
+    "until",
+    "integral(",
+    "integral(t in 0..1, ",
+    ", t, 0, 1)",
+    "grad(f)(",
+    "where p.xy = ",
+    "for ",
     "surface(",
     ":=",
     "\r\n",
@@ -181,6 +193,23 @@ fn deep_texts_are_refused_once() {
             "max(x, ",
             "(x where a = ",
             "grad(",
+            "grad(sin)(",
+            "sum(",
+            "sum(k in ",
+            "sum(k in 1..",
+            "sum(k in 1..2, ",
+            "sum(k = ",
+            "sum(k, {k, ",
+            "iterate(",
+            "iterate(9, z = ",
+            "iterate(9, z = 0, ",
+            "iterate(9, z = 0, z until ",
+            "sum(k in 1..2, iterate(9, z = 0, ",
+            "integral(",
+            "integral(x, t, ",
+            "integral(t in 0..",
+            "integral(t in 0..1, ",
+            "x where p.x = (",
             "x + (",
             "-(",
             "√-",
@@ -315,10 +344,34 @@ fn long_damaged_texts_are_read_in_linear_time() {
             "(|",
             "f'",
             "x + not ",
-            "sum(k in ",
+            "sum(k, 1, 2) ",
+            "sum(x, ",
+            "x where a = 1 where b = 2 ",
+            "x where a = 1, b = 2, ",
+            "where p.x = ",
+            "p.x = ",
+            "iterate(z) ",
+            "iterate(9, z = 0, z, z) ",
+            "until ",
+            "x until ",
+            "integral(x, ",
+            "integral(x, t) ",
+            "for ",
+            "for x ",
+            "∑ ",
+            "{k, ",
         ];
         for piece in pieces {
             let _ = codes(&piece.repeat(100_000));
+        }
+        for piece in ["x, ", "k = 1, ", "k in 1..2, ", "x until "] {
+            for open in ["sum(", "sum(k in 1..2, ", "iterate(9, ", "integral("] {
+                let _ = codes(&format!("{open}{}", piece.repeat(50_000)));
+            }
+        }
+        for piece in ["sum(k in ", "sum(x ", "iterate(9, z = 0, ", "integral(x + "] {
+            let count = pullback_grammar::ast::MAX_SOURCE_BYTES / piece.len();
+            let _ = codes(&piece.repeat(count));
         }
     });
 }

@@ -6,7 +6,9 @@ mod doctor;
 mod emit;
 mod eval;
 mod failure;
+mod fmt;
 mod functions;
+mod json;
 mod overrides;
 mod progress;
 mod render;
@@ -55,6 +57,9 @@ enum Command {
     /// Look for errors
     #[command(after_help = EXIT_CODES)]
     Check(check::CheckArguments),
+    /// Set programs in the canonical format
+    #[command(after_help = EXIT_CODES)]
+    Fmt(fmt::FmtArguments),
     /// Evaluate a formula at points
     #[command(after_help = EXIT_CODES)]
     Eval(eval::EvalArguments),
@@ -179,6 +184,7 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
         Command::Render(arguments) => render::run(&arguments, console),
         Command::Emit(arguments) => emit::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),
+        Command::Fmt(arguments) => fmt::run(&arguments, console),
         Command::Eval(arguments) => eval::run(&arguments, console),
         Command::Doctor => doctor::run(console),
         Command::Functions(arguments) => functions::run(&arguments),

@@ -16,6 +16,7 @@
     )
 )]
 
+pub mod atomic_file;
 pub mod device;
 pub mod error;
 pub mod evaluate;
@@ -29,9 +30,10 @@ mod scale;
 mod tiles;
 mod uniforms;
 
+pub use atomic_file::AtomicFile;
 pub use device::{AdapterChoice, AdapterSummary, Gpu};
 pub use error::Error;
 pub use evaluate::GpuEvaluator;
-pub use image_file::{AtomicFile, Metadata};
+pub use image_file::Metadata;
 pub use render::{Frame, Pipeline, Renderer, RowSink, Size, View};
 pub use scale::fill_in_scale;

@@ -156,6 +156,125 @@ fn files_and_formulas_are_told_apart() {
 }
 
 #[test]
+fn several_programs_are_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("good.pull"), "x + y").unwrap();
+    std::fs::write(folder.path().join("bad.pull"), "x + ").unwrap();
+    let check = |arguments: &[&str], input: &str| {
+        let output = run(folder.path(), &[&["check"], arguments].concat(), input);
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        let code = output.status.code().unwrap();
+        (code, text(&output.stdout), text(&output.stderr))
+    };
+    let (code, told, errors) = check(&["bad.pull", "good.pull", "-"], "1/2x");
+    assert_eq!(code, 1);
+    assert_eq!(
+        told,
+        "good.pull: ok, shows levels\nstandard input: ok, 1 warning, shows levels\n"
+    );
+    assert!(errors.contains("bad.pull:1:"), "{errors}");
+    assert!(errors.contains("standard input:1:"), "{errors}");
+    let (code, told, errors) = check(&["missing.pull", "good.pull"], "");
+    assert_eq!((code, told.as_str()), (4, "good.pull: ok, shows levels\n"));
+    assert!(errors.contains("missing.pull: no such file"), "{errors}");
+    assert_eq!(check(&["-x^2", "x y"], "").0, 0);
+    let (code, _, errors) = check(&["-", "-"], "x");
+    assert_eq!(code, 2);
+    assert!(errors.contains("only once"), "{errors}");
+    let (code, told, _) = check(&["-x^2", "--format", "json"], "");
+    assert!(code == 0 && told.starts_with('{'), "{told}");
+}
+
+#[test]
+fn files_are_formatted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let read = |name: &str| std::fs::read_to_string(path(name)).unwrap();
+    let fmt = |arguments: &[&str]| {
+        let output = run(folder.path(), &[&["fmt"], arguments].concat(), "");
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        let code = output.status.code().unwrap();
+        (code, text(&output.stdout), text(&output.stderr))
+    };
+    let (rough, neat) = ("f( x,y )=x²+ 2y // why\n", "f(x, y) = x² + 2y  // why\n");
+    std::fs::write(path("rough.pull"), rough).unwrap();
+    std::fs::write(path("neat.pull"), neat).unwrap();
+    std::fs::write(path("bad.pull"), "f(x = 2\n").unwrap();
+
+    let (code, told, errors) = fmt(&["--check", "rough.pull", "neat.pull"]);
+    assert_eq!((code, told.as_str()), (1, "rough.pull\n"));
+    let shown = [
+        "--- rough.pull",
+        "-f( x,y )=x²+ 2y // why",
+        "+f(x, y) = x² + 2y  // why",
+    ];
+    assert!(shown.iter().all(|line| errors.contains(line)), "{errors}");
+    assert_eq!(read("rough.pull"), rough, "checked, not changed");
+
+    let (code, told, errors) = fmt(&["bad.pull", "rough.pull", "neat.pull"]);
+    assert_eq!((code, told.as_str()), (1, ""));
+    assert!(
+        errors.contains("error[") && errors.contains("bad.pull:1:"),
+        "{errors}"
+    );
+    assert!(errors.contains("rough.pull: formatted"), "{errors}");
+    assert!(!errors.contains("neat.pull"), "{errors}");
+    assert_eq!(read("rough.pull"), neat);
+    assert_eq!(read("bad.pull"), "f(x = 2\n", "left alone");
+
+    assert_eq!(
+        fmt(&["--check", "rough.pull", "neat.pull"]),
+        (0, String::new(), String::new())
+    );
+    let (code, _, errors) = fmt(&["missing.pull", "bad.pull"]);
+    assert_eq!(code, 4);
+    assert!(errors.contains("missing.pull: no such file"), "{errors}");
+    let entries = std::fs::read_dir(folder.path()).unwrap().count();
+    assert_eq!(entries, 3, "nothing else is left behind");
+}
+
+#[cfg(unix)]
+#[test]
+fn formatting_keeps_links_and_permissions() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let (file, link) = (folder.path().join("a.pull"), folder.path().join("b.pull"));
+    std::fs::write(&file, "x+y").unwrap();
+    std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o640)).unwrap();
+    std::os::unix::fs::symlink(&file, &link).unwrap();
+    assert_eq!(
+        run(folder.path(), &["fmt", "b.pull"], "").status.code(),
+        Some(0)
+    );
+    assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+    let mode = std::fs::metadata(&file).unwrap().permissions().mode();
+    assert_eq!(mode & 0o777, 0o640);
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), "x + y\n");
+}
+
+#[test]
+fn the_standard_input_is_formatted() {
+    for arguments in [&["fmt"][..], &["fmt", "-"]] {
+        let (code, text, errors) = pullback(arguments, "a=1;x+a");
+        assert_eq!(
+            (code, text.as_str(), errors.as_str()),
+            (0, "a = 1\nx + a\n", "")
+        );
+        let (code, text, errors) = pullback(arguments, "x +");
+        assert_eq!((code, text.as_str()), (1, ""));
+        assert!(errors.contains("standard input:1:"), "{errors}");
+    }
+    let (code, text, _) = pullback(&["fmt", "--check"], "a=1;x+a");
+    assert_eq!((code, text.as_str()), (1, "standard input\n"));
+    // What compiles not, but reads well, has a format; warnings are no matter of it.
+    let (code, text, errors) = pullback(&["fmt"], "1/2x+unknown");
+    assert_eq!(
+        (code, text.as_str(), errors.as_str()),
+        (0, "1/2x + unknown\n", "")
+    );
+}
+
+#[test]
 fn shaders_in_every_language() {
     for target in ["wgsl", "glsl", "hlsl", "msl", "spirv"] {
         for what in ["value", "gradient", "scene"] {

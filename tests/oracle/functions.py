@@ -103,6 +103,10 @@ REAL = {
     "sinc": (sinc, everywhere, 0.0, 0.0),
     "lgamma": (lambda x: mp.log(abs(mp.gamma(x))), lambda x: not pole(x), INF, INF),
     "trigamma": (lambda x: mp.polygamma(1, x), lambda x: not pole(x), 0.0, NAN),
+    "sec": (lambda x: 1 / mp.cos(x), everywhere, NAN, NAN),
+    "csc": (lambda x: 1 / mp.sin(x), everywhere, NAN, NAN),
+    "sech": (lambda x: 1 / mp.cosh(x), everywhere, 0.0, 0.0),
+    "csch": (lambda x: 1 / mp.sinh(x), everywhere, 0.0, -0.0),
     "neg": (lambda x: -x, everywhere, -INF, INF),
     "square": (lambda x: x * x, everywhere, INF, INF),
     "cube": (lambda x: x * x * x, everywhere, INF, -INF),
@@ -124,6 +128,7 @@ EXTRA = {
     "exp": [88.72283, 88.72284, -87.33654, -87.4, -103.9, -104.1], "expm1": [88.72283, 88.73, -17.5, -88.0],
     "exp2": [127.0, 128.0, -126.0, -127.0, -149.0, 0.1, 23.5], "log1p": [-1.0, -1 + 2.0**-24, -0.5],
     "sin": [PI, 2 * PI, 11.0 * PI, 355.0], "cos": [HALF_PI, 3 * HALF_PI, 11.0], "tan": [HALF_PI, up(HALF_PI), 3 * HALF_PI, PI],
+    "sec": [HALF_PI, 3 * HALF_PI, PI], "csc": [HALF_PI, PI, 11.0 * PI, 355.0], "sech": [86.0, 89.5, 9.0], "csch": [86.0, 89.5, 9.0],
     "sinh": [88.72283, 89.4, 89.5], "cosh": [88.72283, 89.4, 89.5], "tanh": [9.0, 20.0, 89.0], "cbrt": [27.0, 8.0],
     "asin": [-1 + 2.0**-24], "acos": [-1 + 2.0**-24], "acosh": [up(1.0, 4), 1.5], "atanh": [-1 + 2.0**-24],
     "gamma": [-0.5, -1.0, -2.0, up(1.0), -1 - 2.0**-23, -1 + 2.0**-24, 5.0, 34.0, 35.0, 35.1, -33.5, -40.5],
@@ -343,6 +348,7 @@ COMPLEX = {
     "sin": mp.sin, "cos": mp.cos, "tan": mp.tan, "asin": mp.asin, "acos": mp.acos, "atan": mp.atan,
     "sinh": mp.sinh, "cosh": mp.cosh, "tanh": mp.tanh, "asinh": mp.asinh, "acosh": CACOSH, "atanh": mp.atanh,
     "sinc": lambda z: mp.sin(z) / z,
+    "sec": lambda z: 1 / mp.cos(z), "csc": lambda z: 1 / mp.sin(z), "sech": lambda z: 1 / mp.cosh(z), "csch": lambda z: 1 / mp.sinh(z),
 }
 SLOW = {"gamma": mp.gamma, "digamma": mp.digamma, "trigamma": lambda z: mp.polygamma(1, z)}
 HUGE = {"log", "log2", "log10", "log1p", "sqrt", "cbrt", "asin", "acos", "atan", "asinh", "acosh", "atanh"}
@@ -369,6 +375,8 @@ def complex_points(name):
     both = lambda v: (v, -v)
     pts = [(a, b) for x in GRID for y in GRID for a in both(x) for b in both(y)]
     pts += HARD + (FAR if name in HUGE else WIDE)
+    if name in ("csc", "csch"):  # an infinite complex number has no direction
+        pts = [(x, y) for x, y in pts if max(abs(x), abs(y)) > 1e-37]
     return dict((repr((f32(a), f32(b))), (f32(a), f32(b))) for a, b in pts).values()
 
 

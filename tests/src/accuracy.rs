@@ -7,6 +7,7 @@ pub mod formulas;
 pub mod literature;
 pub mod measure;
 pub mod report;
+pub mod second;
 pub mod subjects;
 pub mod sweep;
 pub mod tables;

@@ -117,20 +117,7 @@ pub fn parsing(bytes: &[u8]) -> Result<(), String> {
     if twice != printed {
         return Err(format!("printed once\n{printed}\nprinted twice\n{twice}"));
     }
-    let Some(formatted) = pullback_grammar::format(text, &is_function) else {
-        return Err("a text without errors cannot be formatted".into());
-    };
-    let same = again(&formatted);
-    if same.has_errors() || pullback_grammar::print(&same.file) != printed {
-        return Err(format!(
-            "formatting changes the meaning:\n{formatted}\n{:?}",
-            same.diagnostics
-        ));
-    }
-    if pullback_grammar::format(&formatted, &is_function).as_ref() != Some(&formatted) {
-        return Err(format!("formatting twice changes the text:\n{formatted}"));
-    }
-    Ok(())
+    crate::formatting::tree(text)
 }
 
 /// Says what is wrong with the compiler's answer to a text, if anything; of a program, also with its graph, its
@@ -167,7 +154,7 @@ pub fn compiling(bytes: &[u8], modules: bool) -> Result<(), String> {
         if formula.graph.nodes().len() > 20_000 {
             continue;
         }
-        for what in [What::Value, What::Gradient, What::Derivative] {
+        for what in [What::Value, What::Gradient, What::Derivative, What::Hessian] {
             match program.evaluator(k, what) {
                 Ok(mut evaluator) => {
                     let mut out = vec![0.0; evaluator.outputs().len()];

@@ -3,7 +3,10 @@
 
 #[cfg(feature = "gpu")]
 pub mod accuracy;
+pub mod calculus;
 pub mod corpus;
+pub mod formatting;
 pub mod holds;
+pub mod loops;
 pub mod mutate;
 pub mod units;

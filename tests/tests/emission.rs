@@ -215,12 +215,18 @@ fn functions() -> Vec<String> {
         }
     }
     for function in pullback_compiler::check::library_functions() {
-        let arity = function.function.params.len();
-        out.push(format!(
-            "f(x, y) = {}({}) + y",
-            function.name,
-            ["x", "y", "x + y"][..arity].join(", ")
-        ));
+        let argument = |(k, ty): (usize, &Option<Type>)| match ty {
+            Some(Type::Vector(n)) => format!(
+                "vec{n}({}{})",
+                ["x", "y", "x + y"][k % 3],
+                ", y, 1, x".get(..3 * (usize::from(*n) - 1)).unwrap_or("")
+            ),
+            Some(Type::Complex) => format!("({} + i y)", ["x", "y"][k % 2]),
+            _ => format!("({} + {k})", ["x", "y", "x + y"][k % 3]),
+        };
+        let arguments: Vec<String> = function.types.iter().enumerate().map(argument).collect();
+        let call = format!("{}({})", function.name, arguments.join(", "));
+        out.push(format!("f(x, y) = length({call}) + y"));
     }
     out.extend(
         [

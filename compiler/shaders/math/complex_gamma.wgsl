@@ -19,10 +19,15 @@ fn complex_sin_pi(z: vec2f) -> vec2f {
         h.exponent));
 }
 
-/// π cot πz.
+/// π cot πz = π (sin πx cos πx - i sinh πy cosh πy) / (sin² πx + sinh² πy) for |y| ≤ 8: no part cancels.
 fn complex_pi_cot_pi(z: vec2f) -> vec2f {
-    let f = z.x - floor(z.x + 0.5);
-    return 3.1415927 * complex_inverse(complex_tan(3.1415927 * vec2f(f, z.y)));
+    let wave = sincos_pi(z.x);
+    let h = real_sinhcosh(3.1415927 * z.y);
+    let norm = wave.x * wave.x + h.x * h.x;
+    if norm < 1e-24 { // beside a pole, where the squares may underflow: 1/z
+        return complex_inverse(vec2f(z.x - floor(z.x + 0.5), z.y));
+    }
+    return vec2f(wave.x * wave.y, -h.x * h.y) * (3.1415927 / norm);
 }
 
 /// Γ for Re z ≥ -1/2 or |Im z| ≥ 5.

@@ -19,6 +19,8 @@ pub struct Bounds {
     pub params: Vec<Option<(f64, f64)>>,
     /// The greatest number of steps of each loop whose body is being built.
     pub limits: FxHashMap<Binder, u32>,
+    /// What each leaf stands for that something is differentiated by.
+    pub variables: FxHashMap<Id, Id>,
 }
 
 /// The values that a real number can take.
@@ -174,6 +176,10 @@ impl Query<'_> {
             }
             Op::Counter(binder) => match self.bounds.limits.get(&binder) {
                 Some(&limit) => Interval::new(0.0, (f64::from(limit) - 1.0).max(0.0)),
+                None => ANY,
+            },
+            Op::Variable(_) => match self.bounds.variables.get(&id) {
+                Some(&value) => self.of(value, depth + 1),
                 None => ANY,
             },
             Op::Apply(prim) => self.apply(prim, id, &node.args, depth + 1),

@@ -9,10 +9,12 @@ use super::bounds::Bounds;
 use super::builtins::advice;
 use super::fold::FoldBudget;
 use super::iteration::Iteration;
+use super::library::MAX_LIBRARY_DEPTH;
 use super::names::MAX_CALL_DEPTH;
 use super::nesting::{Extent, Nesting};
 use super::scope::Scope;
 use super::symbols::Symbols;
+use super::variables::Frame;
 use super::{Value, library, named_constant};
 use crate::ir::{Graph, Id, Op, Ty};
 use crate::types::Type;
@@ -49,6 +51,11 @@ pub struct Builder<'a> {
     pub(super) bounds: Bounds,
     pub(super) nesting: Nesting,
     pub(super) folding: FoldBudget,
+    pub(super) frame: Frame<'a>,
+    /// Derivatives of functions at values, by their order.
+    pub(super) derivatives: FxHashMap<(Source, &'a str, u32, Value), Known>,
+    /// Number of nodes that the passes which take derivatives have visited.
+    pub(super) visits: usize,
     program: &'a File,
 }
 
@@ -76,6 +83,9 @@ impl<'a> Builder<'a> {
             depth: 0,
             active: Vec::new(),
             calls: FxHashMap::default(),
+            frame: Frame::default(),
+            derivatives: FxHashMap::default(),
+            visits: 0,
             constants: FxHashMap::default(),
             bounds: Bounds::default(),
             nesting: Nesting::default(),
@@ -103,6 +113,26 @@ impl<'a> Builder<'a> {
         self.calls.keys().filter(of_program).map(|key| key.1)
     }
 
+    /// The program's functions that have been called without an error, with the types of the arguments and of the
+    /// value; one for each call.
+    pub fn signatures(&self) -> impl Iterator<Item = (&'a str, Vec<Type>, Type)> + '_ {
+        self.calls
+            .iter()
+            .filter_map(|((source, name, arguments), value)| {
+                let types = arguments.iter().map(|argument| argument.ty(&self.graph));
+                let inputs = types.collect::<Option<Vec<Type>>>()?;
+                let result = value.value.ty(&self.graph)?;
+                (*source == Source::Program).then_some((*name, inputs, result))
+            })
+    }
+
+    /// The program's constants that have been used without an error, with their types.
+    pub fn constant_types(&self) -> impl Iterator<Item = (&'a str, Type)> + '_ {
+        let typed =
+            |(name, known): (&&'a str, &(Value, usize))| Some((*name, known.0.ty(&self.graph)?));
+        self.constants.iter().filter_map(typed)
+    }
+
     /// Reports a problem; the value is then an error, which is not reported again.
     pub fn report(&mut self, problem: Diagnostic) -> Value {
         self.diagnostics.push(problem);
@@ -111,6 +141,7 @@ impl<'a> Builder<'a> {
 
     /// Defines a name for what is built next, such as an input of a formula.
     pub fn define(&mut self, name: &'a str, value: Value) {
+        self.frame.parameters.push((name, value.clone()));
         self.scope.push(name, value);
     }
 
@@ -171,7 +202,7 @@ impl<'a> Builder<'a> {
             Expr::Piecewise { arms, otherwise } => {
                 self.choice(arms.iter().copied(), *otherwise, span)
             }
-            Expr::Where { body, locals } => self.locals(*body, locals),
+            Expr::Where { body, locals } => self.locals(*body, locals, span),
             Expr::Series { kind, ranges, term } => self.series(*kind, ranges, *term),
             Expr::Iterate {
                 count,
@@ -184,7 +215,7 @@ impl<'a> Builder<'a> {
                 steps,
                 until: *until,
             }),
-            Expr::Integral { .. } => Value::Error,
+            Expr::Integral { body, range } => self.integral(*body, range, span),
         }
     }
 
@@ -208,15 +239,16 @@ impl<'a> Builder<'a> {
         value
     }
 
-    fn locals(&mut self, body: ExprId, locals: &'a [Local]) -> Value {
-        let depth = self.scope.len();
+    fn locals(&mut self, body: ExprId, locals: &'a [Local], span: Span) -> Value {
+        let (depth, bound) = (self.scope.len(), self.bound());
         for local in locals {
             let value = self.local(local);
             self.name_value(&local.name.text, &value);
-            self.scope.push(&local.name.text, value);
+            self.bind_local(&local.name.text, value, span);
         }
-        let value = self.any(body);
+        let mut value = self.any(body);
         self.scope.truncate(depth);
+        self.release(bound, std::slice::from_mut(&mut value));
         value
     }
 
@@ -284,11 +316,11 @@ impl<'a> Builder<'a> {
         &mut self,
         name: &'a str,
         source: Source,
-        scope: Scope<'a, Value>,
+        mut scope: Scope<'a, Value>,
         body: ExprId,
     ) -> Value {
         // longer chains have been reported by the pass over names
-        if self.active.len() > MAX_CALL_DEPTH + 1 {
+        if self.active.len() > MAX_CALL_DEPTH + MAX_LIBRARY_DEPTH + 1 {
             return Value::Error;
         }
         let file = match source {
@@ -297,11 +329,15 @@ impl<'a> Builder<'a> {
         };
         let file = std::mem::replace(&mut self.file, file);
         let source = std::mem::replace(&mut self.source, source);
+        let frame = self.frame_of(&mut scope, self.span(body));
+        let frame = std::mem::replace(&mut self.frame, frame);
         let scope = std::mem::replace(&mut self.scope, scope);
         self.active.push(name);
-        let value = self.any(body);
+        let mut value = self.any(body);
         self.active.pop();
-        (self.file, self.source, self.scope) = (file, source, scope);
+        self.release(0, std::slice::from_mut(&mut value));
+        (self.file, self.source) = (file, source);
+        (self.scope, self.frame) = (scope, frame);
         value
     }
 
@@ -343,6 +379,12 @@ impl<'a> Builder<'a> {
         (self.source == Source::Program)
             .then(|| self.symbols.functions.get(name).copied())
             .flatten()
+    }
+
+    /// Whether the program defines a value of this name.
+    pub(super) fn is_defined_value(&self, name: &str) -> bool {
+        self.source == Source::Program
+            && (self.symbols.constants.contains_key(name) || self.symbols.params.contains_key(name))
     }
 
     /// Where an expression of the current text stands, in the user's text.

@@ -6,10 +6,11 @@ use smallvec::SmallVec;
 
 use super::builder::Known;
 use super::builtins::advice;
-use super::names::signature;
+use super::library::LibraryFunction;
+use super::names::{listed, signature};
 use super::scope::Scope;
 use super::suggest::quoted;
-use super::{Builder, Source, Value, builtins, library};
+use super::{Builder, Source, Value, builtins, calculus, library};
 use crate::ir::{Prim, Ty};
 use crate::table;
 use crate::types::Type;
@@ -22,7 +23,14 @@ impl<'a> Builder<'a> {
         args: &'a [ExprId],
         span: Span,
     ) -> Value {
-        let user = self.user_function(&callee.text);
+        let name = callee.text.as_str();
+        let user = self.user_function(name);
+        if let Some(operator) = calculus::by_name(name).filter(|_| user.is_none()) {
+            return self.calculus(operator, args, span);
+        }
+        if primes > 0 {
+            return self.prime(callee, primes, args, span);
+        }
         let mut values: Vec<Value> = Vec::new();
         for (k, &arg) in args.iter().enumerate() {
             let formal = user.and_then(|function| function.params.get(k));
@@ -33,23 +41,23 @@ impl<'a> Builder<'a> {
                 self.expr(arg)
             });
         }
-        if primes > 0 {
-            return self.report(
-                Diagnostic::error(
-                    "not-yet",
-                    callee.span,
-                    "derivatives inside of a formula are not available in this version",
-                )
-                .with_hint("`pullback eval --what derivative` computes them"),
-            );
-        }
+        let spans: Vec<Span> = args.iter().map(|&a| self.span(a)).collect();
+        self.invoke(name, values, &spans, span)
+    }
+
+    /// Calls the function of this name, whatever it is; `spans` are the places of the arguments where they have any.
+    pub(super) fn invoke(
+        &mut self,
+        name: &'a str,
+        values: Vec<Value>,
+        spans: &[Span],
+        span: Span,
+    ) -> Value {
         if values.contains(&Value::Error) {
             return Value::Error;
         }
-        let name = callee.text.as_str();
-        if let Some(function) = user {
-            let spans: Vec<Span> = args.iter().map(|&a| self.span(a)).collect();
-            return self.call_function(function, values, &spans, span);
+        if let Some(function) = self.user_function(name) {
+            return self.call_function(function, values, spans, span);
         }
         if let Some(builtin) = builtins::by_name(name) {
             if !builtin.arity.contains(&values.len()) {
@@ -57,10 +65,14 @@ impl<'a> Builder<'a> {
             }
             return (builtin.build)(self, &values, span);
         }
-        if let Some(function) = library::by_name(name) {
-            return self.call_library(function, values, span);
+        let row = table::by_name(name);
+        let is_primitive = row.is_some_and(|row| row.typing.arity() == values.len());
+        if let Some(definitions) = library::by_name(name)
+            && !is_primitive
+        {
+            return self.call_library(definitions, values, span);
         }
-        match table::by_name(name) {
+        match row {
             Some(row) => self.call_primitive(row.prim, &values, span),
             // unknown functions have been reported by the pass over names
             None => Value::Error,
@@ -172,15 +184,60 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Calls a function of the library, by components where an argument is a vector.
+    /// Calls the definition of the library that fits the arguments.
     fn call_library(
         &mut self,
-        function: &'static library::LibraryFunction,
-        values: Vec<Value>,
+        definitions: &'static [&'static LibraryFunction],
+        mut values: Vec<Value>,
+        span: Span,
+    ) -> Value {
+        let types: Option<Vec<Type>> = values.iter().map(|v| v.ty(&self.graph)).collect();
+        let Some(types) = types else {
+            return Value::Error;
+        };
+        let Some(function) = library::overload(definitions, &types) else {
+            return self.no_definition(definitions, &types, span);
+        };
+        if function.is_generic() {
+            return self.by_components(function, &values, span);
+        }
+        for (value, expected) in values.iter_mut().zip(&function.types) {
+            if let (Value::Scalar(id), Some(Type::Complex)) = (&value, expected) {
+                *value = Value::Scalar(self.graph.widen(*id));
+            }
+        }
+        self.library_body(function, values, span)
+    }
+
+    /// Reports arguments that no definition takes. A wrong number has been reported by the pass over names.
+    fn no_definition(
+        &mut self,
+        definitions: &'static [&'static LibraryFunction],
+        types: &[Type],
+        span: Span,
+    ) -> Value {
+        let takes_as_many = |f: &&&LibraryFunction| f.types.len() == types.len();
+        let near: Vec<&str> = definitions
+            .iter()
+            .filter(takes_as_many)
+            .map(|f| f.usage.as_str())
+            .collect();
+        let (Some(function), false) = (definitions.first(), near.is_empty()) else {
+            return Value::Error;
+        };
+        let problem = does_not_take(function.name, types, span);
+        self.report(problem.with_hint(format!("it is written {}", listed(&near))))
+    }
+
+    /// Calls a definition without annotations, by components where an argument is a vector.
+    fn by_components(
+        &mut self,
+        function: &'static LibraryFunction,
+        values: &[Value],
         span: Span,
     ) -> Value {
         let mut size = None;
-        for value in &values {
+        for value in values {
             if let Value::Vector(items) = value {
                 if size.is_some_and(|n| n != items.len()) {
                     return self.report(Diagnostic::error(
@@ -193,7 +250,7 @@ impl<'a> Builder<'a> {
             }
         }
         let Some(size) = size else {
-            return self.library_scalar(function, values, span);
+            return self.library_body(function, values.to_vec(), span);
         };
         let mut out = SmallVec::new();
         for k in 0..size {
@@ -201,7 +258,7 @@ impl<'a> Builder<'a> {
                 Value::Vector(items) => Value::Scalar(items[k]),
                 _ => v.clone(),
             };
-            match self.library_scalar(function, values.iter().map(component).collect(), span) {
+            match self.library_body(function, values.iter().map(component).collect(), span) {
                 Value::Scalar(id) if self.graph.ty(id) == Ty::Real => out.push(id),
                 Value::Error => return Value::Error,
                 _ => {
@@ -219,9 +276,11 @@ impl<'a> Builder<'a> {
         Value::Vector(out)
     }
 
-    fn library_scalar(
+    /// The value of a definition for arguments that fit it. What is found inside is told at the call: places in the
+    /// library mean nothing to the user.
+    fn library_body(
         &mut self,
-        function: &'static library::LibraryFunction,
+        function: &'static LibraryFunction,
         values: Vec<Value>,
         span: Span,
     ) -> Value {
@@ -229,35 +288,79 @@ impl<'a> Builder<'a> {
         if formals.len() != values.len() {
             return Value::Error;
         }
-        let shown: Vec<String> = values
-            .iter()
-            .filter_map(|v| v.ty(&self.graph))
-            .map(|t| t.to_string())
-            .collect();
+        let key = (Source::Library, function.name, values);
+        if let Some(known) = self.calls.get(&key).cloned() {
+            let fits = self.reuse(known.loops, span);
+            return if fits { known.value } else { Value::Error };
+        }
         let scope = formals
             .iter()
             .map(|p| p.name.text.as_str())
-            .zip(values)
+            .zip(key.2.iter().cloned())
             .collect();
         let before = self.diagnostics.len();
-        let value = self.outside(
-            function.name,
-            Source::Library,
-            scope,
-            function.function.body,
-        );
-        if self.diagnostics.len() > before {
-            // places inside of the library mean nothing to the user
-            self.diagnostics.truncate(before);
-            return self.report(
-                Diagnostic::error(
-                    "type-mismatch",
-                    span,
-                    format!("`{}` does not take {}", function.name, shown.join(" and ")),
-                )
-                .with_hint(format!("it is defined as {}", function.definition)),
-            );
+        let around = self.nesting.apart();
+        let body = function.function.body;
+        let value = self.outside(function.name, Source::Library, scope, body);
+        let loops = self.nesting.join(around);
+        let found = self.diagnostics.split_off(before);
+        if let Some(problem) = found.iter().find(|problem| problem.is_error()) {
+            let types: Vec<Type> = key.2.iter().filter_map(|v| v.ty(&self.graph)).collect();
+            let problem = at_call(problem, function, &types, span);
+            return self.report(problem);
+        }
+        if !found.is_empty() && self.is_undefined(&value) {
+            self.diagnostics.push(Diagnostic::warning(
+                "outside-domain",
+                span,
+                format!("`{}` of these constants is not a number", function.name),
+            ));
+        } else if value != Value::Error {
+            let known = Known {
+                value: value.clone(),
+                loops,
+                place: self.calls.len(),
+            };
+            self.calls.insert(key, known);
         }
         value
     }
+
+    /// Whether a component is known not to be a number.
+    fn is_undefined(&self, value: &Value) -> bool {
+        let mut ids = value.ids().into_iter();
+        ids.any(|id| self.graph.as_real(id).is_some_and(f64::is_nan))
+    }
+}
+
+/// An error inside of a definition of the library, as the user can understand it: a limit that was exceeded, or
+/// arguments that do not fit.
+fn at_call(
+    problem: &Diagnostic,
+    function: &LibraryFunction,
+    types: &[Type],
+    span: Span,
+) -> Diagnostic {
+    if problem.code != "type-mismatch" {
+        return Diagnostic {
+            span,
+            related: Vec::new(),
+            ..problem.clone()
+        };
+    }
+    let hint = if function.is_generic() {
+        format!("it is defined as {}", function.definition)
+    } else {
+        format!("it is written `{}`", function.usage)
+    };
+    does_not_take(function.name, types, span).with_hint(hint)
+}
+
+fn does_not_take(name: &str, types: &[Type], span: Span) -> Diagnostic {
+    let shown: Vec<String> = types.iter().map(Type::to_string).collect();
+    Diagnostic::error(
+        "type-mismatch",
+        span,
+        format!("`{name}` does not take {}", shown.join(" and ")),
+    )
 }

@@ -11,7 +11,7 @@ use crate::ir::{Binder, Id, Loop, Prim, State, Ty};
 use crate::types::Type;
 
 /// Greatest number of times that the steps of an iteration are built, until the types of its states are settled.
-const MAX_ROUNDS: usize = 8;
+const MAX_ROUNDS: usize = 4;
 
 /// The parts of [`Expr::Iterate`].
 pub(super) struct Iteration<'a> {
@@ -66,11 +66,13 @@ impl<'a> Builder<'a> {
         let running = running.map_or(Value::Error, Value::Scalar);
         let before = self.nesting.enter(limit);
         self.bounds.limits.insert(binder, limit);
-        let depth = self.scope.len();
+        let (depth, bound) = (self.scope.len(), self.bound());
         self.name_value(&range.name.text, &running);
-        self.scope.push(&range.name.text, running);
-        let value = self.series(kind, inner, term);
+        let seen_in = self.span(range.upper).join(self.span(term));
+        self.bind_running(&range.name.text, running, seen_in);
+        let mut value = self.series(kind, inner, term);
         self.scope.truncate(depth);
+        self.release(bound, std::slice::from_mut(&mut value));
         let inside = self.nesting.leave(limit, before);
         match steps {
             Some(steps) => self.accumulate(kind, binder, steps, inside, (&value, term)),

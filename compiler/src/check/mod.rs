@@ -3,6 +3,7 @@
 mod bounds;
 mod builder;
 mod builtins;
+mod calculus;
 mod call;
 mod fold;
 mod iteration;
@@ -15,11 +16,14 @@ mod scope;
 mod suggest;
 mod symbols;
 mod value;
+mod variables;
 
-pub use builder::{Builder, Source};
+pub use builder::{Builder, MAX_DEPTH, Source};
 pub use builtins::{Builtin, builtins};
+pub use calculus::MAX_ORDER;
+pub use calculus::{Operator, operators};
 pub use library::{LibraryFunction, library_functions};
-pub use names::{check_names, free_variables, not_constant, signature};
+pub use names::{MAX_CALL_DEPTH, check_names, free_variables, not_constant, signature};
 pub use nesting::{MAX_LOOP_NESTING, MAX_STEPS};
 pub use record::Record;
 pub use suggest::{nearest, quoted, shortened};
@@ -31,19 +35,15 @@ use crate::table;
 /// Whether a name is a function of the language without being defined in the program.
 #[must_use]
 pub fn is_builtin_function(name: &str) -> bool {
-    table::by_name(name).is_some()
-        || builtins::by_name(name).is_some()
-        || library::by_name(name).is_some()
-        || is_reserved_function(name)
+    hides_builtin(name) || (library::by_name(name).is_some() && !library::is_private(name))
 }
 
-/// Names of functions that the language reserves and does not have yet.
-#[must_use]
-pub fn is_reserved_function(name: &str) -> bool {
-    matches!(
-        name,
-        "sum" | "product" | "iterate" | "diff" | "grad" | "integral"
-    )
+/// Whether a definition of this name hides what a reader takes to be fixed.
+fn hides_builtin(name: &str) -> bool {
+    table::by_name(name).is_some()
+        || builtins::by_name(name).is_some()
+        || calculus::by_name(name).is_some()
+        || matches!(name, "sum" | "product" | "iterate")
 }
 
 /// The value of a named constant of the language.

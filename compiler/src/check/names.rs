@@ -7,13 +7,12 @@ use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+mod calculus;
+
 use super::scope::Scope;
 use super::suggest::{quoted, shortened};
 use super::symbols::reserved;
-use super::{
-    Symbols, builtins, is_builtin_function, is_builtin_value, is_reserved_function, library,
-    nearest,
-};
+use super::{Symbols, builtins, is_builtin_function, is_builtin_value, library, nearest};
 use crate::table;
 
 /// Longest chain of functions that call each other.
@@ -187,15 +186,20 @@ impl<'a, 'd> Walk<'a, 'd> {
                 self.expr(*first);
                 rest.iter().for_each(|(_, e)| self.expr(*e));
             }
-            Expr::Call { callee, args, .. } => {
-                self.callee(callee, args.len());
-                let is_reserved = is_reserved_function(&callee.text)
-                    && !self.symbols.functions.contains_key(callee.text.as_str());
-                if is_reserved {
-                    self.reserved_arguments(args);
-                } else {
-                    args.iter().for_each(|a| self.expr(*a));
+            Expr::Call {
+                callee,
+                primes,
+                args,
+            } => {
+                if let Some(operator) = self.operator(callee) {
+                    let span = exprs.span(id);
+                    self.calculus(operator, (callee, span), *primes, args);
+                    return;
                 }
+                if !self.primes(callee, *primes, args) {
+                    self.callee(callee, args.len());
+                }
+                args.iter().for_each(|a| self.expr(*a));
             }
             Expr::Member { base, .. } => self.expr(*base),
             Expr::Vector(items) => items.iter().for_each(|e| self.expr(*e)),
@@ -223,26 +227,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                 steps,
                 until,
             } => self.iteration(*count, states, steps, *until),
-            Expr::Integral { .. } => {}
+            Expr::Integral { body, range } => self.integral(*body, range),
         }
-    }
-
-    /// Arguments of a function that is not there yet: the bare name of a function stands for the function, and any
-    /// other bare name behind the first argument for the variable in it.
-    fn reserved_arguments(&mut self, args: &'a [ExprId]) {
-        let depth = self.scope.len();
-        for &arg in args.iter().skip(1) {
-            if let Expr::Name(name) = &self.exprs[arg] {
-                self.scope.push(&name.text, false);
-            }
-        }
-        for &arg in args {
-            let is_function = |n: &Name| self.symbols.functions.contains_key(n.text.as_str());
-            if !matches!(&self.exprs[arg], Expr::Name(n) if is_function(n)) {
-                self.expr(arg);
-            }
-        }
-        self.scope.truncate(depth);
     }
 
     fn is_value(&self, name: &str) -> bool {
@@ -398,7 +384,8 @@ impl<'a, 'd> Walk<'a, 'd> {
     fn usage(&self, name: &str) -> String {
         match self.symbols.functions.get(name) {
             Some(function) => signature(function),
-            None => format!("{name}(…)"),
+            None => super::calculus::by_name(name)
+                .map_or_else(|| format!("{name}(…)"), |o| o.usage.to_owned()),
         }
     }
 
@@ -411,27 +398,11 @@ impl<'a, 'd> Walk<'a, 'd> {
                     callee,
                     given,
                     &function.params.len().to_string(),
-                    &signature(function),
+                    &listed(&[signature(function)]),
                 )
                 .with_related(function.name.span, "defined here");
                 self.diagnostics.push(problem);
             }
-            return;
-        }
-        if is_reserved_function(text) {
-            self.diagnostics.push(
-                Diagnostic::error(
-                    "not-yet",
-                    callee.span,
-                    format!("`{text}` is not available in this version"),
-                )
-                .with_label("reserved for a later version")
-                .with_hint(match text {
-                    "sum" | "product" | "iterate" => "write the terms out",
-                    "integral" => "write the integral in closed form",
-                    _ => "`pullback eval --what gradient` computes derivatives",
-                }),
-            );
             return;
         }
         if let Some((expected, usage)) = builtin_arity(text, given) {
@@ -464,7 +435,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                     .iter()
                     .flat_map(|b| b.names.iter().copied()),
             )
-            .chain(library::library_functions().iter().map(|f| f.name))
+            .chain(library::library_functions().map(|f| f.name))
+            .chain(super::calculus::operators().iter().map(|o| o.name))
             .chain(self.symbols.functions.keys().copied());
         match nearest(text, known) {
             Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),
@@ -507,6 +479,20 @@ fn unknown_type(ty: &Name) -> Diagnostic {
     }
 }
 
+/// "`a`, `b` or `c`"
+pub fn listed<S: AsRef<str>>(items: &[S]) -> String {
+    let mut out = String::new();
+    for (k, item) in items.iter().enumerate() {
+        let joint = match items.len() - k {
+            _ if k == 0 => "",
+            1 => " or ",
+            _ => ", ",
+        };
+        out.extend([joint, "`", item.as_ref(), "`"]);
+    }
+    out
+}
+
 /// `name(a, b: complex)`
 pub fn signature(function: &Function) -> String {
     let params: Vec<String> = function
@@ -531,17 +517,11 @@ fn wrong_arity(callee: &Name, given: usize, expected: &str, usage: &str) -> Diag
         ),
     )
     .with_label(format!("called with {given}"))
-    .with_hint(format!("it is written `{usage}`"))
+    .with_hint(format!("it is written {usage}"))
 }
 
 /// For a builtin: what it expects where `given` is wrong, and how it is written.
 fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
-    if let Some(row) = table::by_name(name) {
-        let variadic = matches!(row.prim, crate::ir::Prim::Min | crate::ir::Prim::Max);
-        let arity = row.typing.arity();
-        let fits = given == arity || (variadic && given > arity);
-        return Some(((!fits).then(|| arity.to_string()), row.usage.to_owned()));
-    }
     if let Some(builtin) = builtins::by_name(name) {
         let expected = (!builtin.arity.contains(&given)).then(|| {
             let (lo, hi) = (builtin.arity.start(), builtin.arity.end());
@@ -551,14 +531,29 @@ fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
                 format!("{lo} to {hi}")
             }
         });
-        return Some((expected, builtin.usage.to_owned()));
+        return Some((expected, listed(&[builtin.usage])));
     }
-    let function = library::by_name(name)?;
-    let arity = function.function.params.len();
-    Some((
-        (given != arity).then(|| arity.to_string()),
-        signature(function.function),
-    ))
+    let row = table::by_name(name);
+    let definitions = library::by_name(name).filter(|_| !library::is_private(name));
+    let definitions = definitions.unwrap_or_default();
+    let mut usages: Vec<&str> = definitions.iter().map(|f| f.usage.as_str()).collect();
+    let mut arities: Vec<usize> = definitions.iter().map(|f| f.types.len()).collect();
+    if let Some(row) = row {
+        let variadic = matches!(row.prim, crate::ir::Prim::Min | crate::ir::Prim::Max);
+        let arity = row.typing.arity();
+        arities.push(if variadic { given.max(arity) } else { arity });
+        usages.push(row.usage);
+    }
+    if usages.is_empty() {
+        return None;
+    }
+    arities.sort_unstable();
+    arities.dedup();
+    let expected = (!arities.contains(&given)).then(|| {
+        let counts: Vec<String> = arities.iter().map(usize::to_string).collect();
+        listed(&counts).replace('`', "")
+    });
+    Some((expected, listed(&usages)))
 }
 
 /// Reports definitions that need themselves, and chains of calls that are too long.

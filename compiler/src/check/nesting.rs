@@ -147,6 +147,7 @@ impl Builder<'_> {
     /// built since `calls` and `constants` were so many.
     pub(super) fn forget(&mut self, calls: usize, constants: usize) {
         self.calls.retain(|_, known| known.place < calls);
+        self.derivatives.clear();
         self.constants.retain(|_, known| known.1 < constants);
     }
 }

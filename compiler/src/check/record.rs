@@ -127,8 +127,7 @@ impl<'a> Builder<'a> {
     fn places(&mut self, size: usize, field: &Name) -> Option<Places> {
         let mut places = Places::new();
         for letter in field.text.chars() {
-            let index = "xyzw".find(letter).or_else(|| "rgba".find(letter));
-            match index.filter(|&k| k < size) {
+            match place(letter).filter(|&k| k < size) {
                 Some(k) => places.push(k),
                 None => {
                     self.bad_swizzle(field, letter, size);
@@ -169,19 +168,13 @@ impl<'a> Builder<'a> {
             other => other,
         };
         let new = self.expr(local.value);
+        if !is_update(field) {
+            // reported by the parser
+            return Value::Error;
+        }
         let Some((mut items, places)) = self.components(&old, field) else {
             return Value::Error;
         };
-        let mut letters = field.text.chars();
-        let is_repeated = |k: &usize| places.iter().filter(|place| *place == k).count() > 1;
-        if let Some(at) = places.iter().position(is_repeated) {
-            let letter = letters.nth(at).unwrap_or('x');
-            let message = format!("the component `{letter}` is replaced twice");
-            return self.report(
-                Diagnostic::error("bad-swizzle", field.span, message)
-                    .with_hint("name each component once"),
-            );
-        }
         let Some(found) = new.ty(&self.graph) else {
             return Value::Error;
         };
@@ -213,4 +206,16 @@ impl<'a> Builder<'a> {
         }
         Value::Vector(items)
     }
+}
+
+/// Which component a letter names.
+fn place(letter: char) -> Option<usize> {
+    "xyzw".find(letter).or_else(|| "rgba".find(letter))
+}
+
+/// Whether the letters name components to replace, each once.
+fn is_update(field: &Name) -> bool {
+    let mut seen = [false; 4];
+    let mut is_new = |letter| place(letter).is_some_and(|k| !std::mem::replace(&mut seen[k], true));
+    field.text.chars().all(&mut is_new)
 }

@@ -67,6 +67,13 @@ impl<'a, T> Scope<'a, T> {
         }
     }
 
+    /// Every name with what it stands for, hidden ones included, in the order in which they began to hold.
+    pub fn entries(&self) -> impl Iterator<Item = (&'a str, &T)> + '_ {
+        self.entries
+            .iter()
+            .map(|entry| (entry.name, &entry.meaning))
+    }
+
     /// Every name, hidden ones included.
     pub fn names(&self) -> impl Iterator<Item = &'a str> + '_ {
         self.entries.iter().map(|entry| entry.name)

@@ -4,8 +4,9 @@ use pullback_grammar::ast::{Constant, File, Function, Item, Name, Param};
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::FxHashMap;
 
-use super::is_builtin_function;
+use super::hides_builtin;
 use super::suggest::quoted;
+use super::variables::Differentiated;
 
 /// What each name at the top of a program stands for.
 #[derive(Debug, Default)]
@@ -16,6 +17,8 @@ pub struct Symbols<'a> {
     pub constants: FxHashMap<&'a str, &'a Constant>,
     /// Parameters with their index.
     pub params: FxHashMap<&'a str, (u16, &'a Param)>,
+    /// The calls that differentiate.
+    pub(super) differentiated: Differentiated,
 }
 
 /// Greatest number of `param` statements of a program.
@@ -24,7 +27,10 @@ pub const MAX_PARAMS: usize = 64;
 impl<'a> Symbols<'a> {
     /// Collects the definitions of a program, and reports names that are defined twice or may not be.
     pub fn collect(file: &'a File, diagnostics: &mut Vec<Diagnostic>) -> Self {
-        let mut symbols = Self::default();
+        let mut symbols = Self {
+            differentiated: Differentiated::of(file),
+            ..Self::default()
+        };
         let mut seen: FxHashMap<&str, Span> = FxHashMap::default();
         for item in &file.items {
             let name = match item {
@@ -86,11 +92,12 @@ impl<'a> Symbols<'a> {
     }
 }
 
-/// Reports names that mean something fixed, and warns of definitions that hide a builtin.
+/// Reports names that mean something fixed, and warns of definitions that hide a builtin. Functions of the library
+/// may be hidden: it has many of the names that people give their own, and its own text never sees the program's.
 fn check_definable(name: &Name, is_function: bool, diagnostics: &mut Vec<Diagnostic>) {
     if let Some(problem) = reserved(name) {
         diagnostics.push(problem);
-    } else if is_builtin_function(&name.text) {
+    } else if hides_builtin(&name.text) {
         let kind = if is_function { "function" } else { "value" };
         diagnostics.push(
             Diagnostic::warning(

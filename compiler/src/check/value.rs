@@ -46,4 +46,49 @@ impl Value {
             Self::Error => SmallVec::new(),
         }
     }
+
+    /// The IR nodes of the value, those of a record's members included.
+    #[must_use]
+    pub fn all_ids(&self) -> SmallVec<[Id; 4]> {
+        let Self::Record(record) = self else {
+            return self.ids();
+        };
+        let members = record.members.iter().map(|member| &member.1);
+        let values = record.value.iter().chain(members);
+        values.flat_map(Self::all_ids).collect()
+    }
+
+    /// A value of the same form whose nodes are others: `new` gives them in the order of [`Self::all_ids`].
+    #[must_use]
+    pub fn map(&self, new: &mut impl FnMut(Id) -> Id) -> Self {
+        match self {
+            Self::Scalar(id) => Self::Scalar(new(*id)),
+            Self::Vector(items) => Self::Vector(items.iter().map(|&id| new(id)).collect()),
+            Self::Record(record) => {
+                let value = record.value.as_ref().map(|value| value.map(new));
+                let members = record.members.iter();
+                let members = members
+                    .map(|(name, member)| (name.clone(), member.map(new)))
+                    .collect();
+                Self::Record(Box::new(Record { value, members }))
+            }
+            Self::Error => Self::Error,
+        }
+    }
+
+    /// A number or vector of the same form with other nodes.
+    #[must_use]
+    pub fn with_ids(&self, ids: &[Id]) -> Self {
+        match (self, ids) {
+            (Self::Scalar(_), &[id]) => Self::Scalar(id),
+            (Self::Vector(items), _) if items.len() == ids.len() => {
+                Self::Vector(SmallVec::from_slice(ids))
+            }
+            (Self::Record(record), _) => {
+                let value = record.value.as_ref();
+                value.map_or(Self::Error, |value| value.with_ids(ids))
+            }
+            _ => Self::Error,
+        }
+    }
 }

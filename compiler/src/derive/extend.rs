@@ -38,7 +38,14 @@ pub fn extend(
             Some(t) => t,
         };
         let (init, next) = (of(state.init), of(state.next));
-        it.states.push(State { leaf, init, next });
+        let further = State { leaf, init, next };
+        // a second derivative by one variable meets the first one's tangents again
+        if let Some(known) = own.iter().find(|state| state.leaf == leaf) {
+            debug_assert_eq!(*known, further, "one leaf stands for two tangents");
+            continue;
+        }
+        it.states.push(further);
     }
-    (it.states.len() > own.len()).then(|| g.repeat(&it))
+    let any = own.iter().any(|state| tangent(state.leaf).is_some());
+    any.then(|| g.repeat(&it))
 }

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use super::NoDerivative;
 use super::activity::activity;
 use super::extend::{extend, states};
-use super::rules::{int_power_partial, sum, takes_second, zero_like};
+use super::rules::{int_power_partial, is_zero, sum, takes_second, zero_like};
 use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
@@ -70,10 +70,6 @@ pub fn forward(
     Ok(roots.iter().map(|r| tangents[r.index()]).collect())
 }
 
-fn is_zero(g: &Graph, id: Id) -> bool {
-    g.as_real(id) == Some(0.0) || g.as_complex(id) == Some((0.0, 0.0))
-}
-
 fn tangent(
     g: &mut Graph,
     prim: Prim,
@@ -81,8 +77,7 @@ fn tangent(
     value: Id,
     tangents: &[Option<Id>],
 ) -> Result<Option<Id>, NoDerivative> {
-    let row = table::row(prim);
-    match row.derivative {
+    match table::derivative(prim) {
         Derivative::Zero => Ok(None),
         Derivative::Missing => Err(NoDerivative { prim }),
         Derivative::Structural => Ok(structural(g, prim, node, value, tangents)),
@@ -91,6 +86,9 @@ fn tangent(
             for (k, tangent) in tangents.iter().enumerate() {
                 let Some(tangent) = *tangent else { continue };
                 let slope = partial(g, &node.args, value, k);
+                if is_zero(g, slope) {
+                    continue;
+                }
                 let term = g.mul(slope, tangent);
                 total = sum(g, total, Some(term));
             }
@@ -172,14 +170,14 @@ fn abs_tangent(g: &mut Graph, x: Id, value: Id, tangent: Id) -> Id {
         let sign = g.apply(Prim::Sign, &[x]);
         return g.mul(sign, tangent);
     }
-    let modulus = table::nonzero(g, value);
+    let point = [Prim::Re, Prim::Im].map(|part| g.apply(part, &[x]));
     let mut total = None;
-    for part in [Prim::Re, Prim::Im] {
-        let (side, slope) = (g.apply(part, &[x]), g.apply(part, &[tangent]));
+    for (k, part) in [Prim::Re, Prim::Im].into_iter().enumerate() {
+        let slope = g.apply(part, &[tangent]);
         if is_zero(g, slope) {
             continue;
         }
-        let cosine = g.div(side, modulus);
+        let cosine = table::direction(g, &point, k, value);
         let term = g.mul(cosine, slope);
         total = sum(g, total, Some(term));
     }

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use super::NoDerivative;
 use super::activity::{activity, conjugate_activity};
 use super::extend::{extend, states};
-use super::rules::{int_power_partial, sum, takes_second};
+use super::rules::{int_power_partial, is_zero, sum, takes_second};
 use crate::ir::{Graph, Id, Node, Op, Prim, State, Ty};
 use crate::table::{self, Derivative};
 
@@ -188,7 +188,7 @@ impl Rule<'_> {
     }
 
     fn tangent(&mut self, prim: Prim) -> Result<Tangent, NoDerivative> {
-        let tangent = match table::row(prim).derivative {
+        let tangent = match table::derivative(prim) {
             Derivative::Zero => Tangent::default(),
             Derivative::Missing => return Err(NoDerivative { prim }),
             Derivative::Partial(partial) => self.each(|rule, tangents| {
@@ -196,6 +196,9 @@ impl Rule<'_> {
                 for (k, tangent) in tangents.iter().enumerate() {
                     let Some(tangent) = *tangent else { continue };
                     let slope = partial(rule.g, &rule.node.args, rule.value, k);
+                    if is_zero(rule.g, slope) {
+                        continue;
+                    }
                     let term = rule.g.mul(slope, tangent);
                     total = sum(rule.g, total, Some(term));
                 }
@@ -204,8 +207,7 @@ impl Rule<'_> {
             Derivative::Structural => self.structural(prim),
         };
         let g = &*self.g;
-        let nonzero =
-            |t: &Id| !(g.as_real(*t) == Some(0.0) || g.as_complex(*t) == Some((0.0, 0.0)));
+        let nonzero = |t: &Id| !is_zero(g, *t);
         Ok(Tangent {
             dz: tangent.dz.filter(nonzero),
             dzbar: tangent.dzbar.filter(nonzero),
@@ -314,8 +316,7 @@ impl Rule<'_> {
                 difference(g, a, b).map(|d| turn_back(g, d))
             }
             Prim::Abs => {
-                let modulus = table::nonzero(g, self.value);
-                let unit = g.div(u, modulus);
+                let unit = unit(g, u, self.value);
                 let reflected = g.apply(Prim::Conj, &[unit]);
                 let left = a.map(|a| g.mul(reflected, a));
                 let right = conj(g, b).map(|b| g.mul(unit, b));
@@ -343,6 +344,14 @@ impl Rule<'_> {
         }
         Some(self.g.apply(Prim::Select, &[condition, a, b]))
     }
+}
+
+/// u/|u|, and 0 with its derivatives at 0.
+fn unit(g: &mut Graph, u: Id, modulus: Id) -> Id {
+    let (zero, origin) = (g.real(0.0), g.complex(0.0, 0.0));
+    let vanishes = g.apply(Prim::Equal, &[modulus, zero]);
+    let unit = g.div(u, modulus);
+    g.apply(Prim::Select, &[vanishes, origin, unit])
 }
 
 fn difference(g: &mut Graph, a: Option<Id>, b: Option<Id>) -> Option<Id> {

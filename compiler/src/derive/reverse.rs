@@ -2,7 +2,7 @@
 
 use super::NoDerivative;
 use super::activity::activity;
-use super::rules::{sum, takes_second};
+use super::rules::{is_zero, sum, takes_second};
 use crate::ir::{Graph, Id, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
@@ -142,12 +142,12 @@ fn contribution(
     k: usize,
     adjoint: Id,
 ) -> Result<Option<Id>, NoDerivative> {
-    Ok(match (table::row(prim).derivative, prim, args) {
+    Ok(match (table::derivative(prim), prim, args) {
         (Derivative::Zero, ..) => None,
         (Derivative::Missing, ..) => return Err(NoDerivative { prim }),
         (Derivative::Partial(partial), ..) => {
             let slope = partial(g, args, value, k);
-            Some(g.mul(slope, adjoint))
+            (!is_zero(g, slope)).then(|| g.mul(slope, adjoint))
         }
         (_, Prim::Neg, _) => Some(g.neg(adjoint)),
         (_, Prim::Add, _) => Some(adjoint),

@@ -9,6 +9,11 @@ pub fn int_power_partial(g: &mut Graph, x: Id, n: i32) -> Id {
     g.mul(factor, power)
 }
 
+/// Whether a node is the constant 0.
+pub fn is_zero(g: &Graph, id: Id) -> bool {
+    g.as_real(id) == Some(0.0) || g.as_complex(id) == Some((0.0, 0.0))
+}
+
 /// A zero of the type of `like`.
 pub fn zero_like(g: &mut Graph, like: Ty) -> Id {
     if like == Ty::Complex {

@@ -43,6 +43,7 @@ pub fn standalone(
         What::Value => value,
         What::Gradient => gradient,
         What::Derivative => derivative,
+        What::Hessian => format!("{value}_hessian"),
     };
     let (output, result, returns) = result(formula, what, &evaluation, types, &mut linker, &name);
     let interface = Interface {

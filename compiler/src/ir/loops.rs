@@ -113,6 +113,9 @@ impl Graph {
             return known;
         }
         let new = self.new_state(binder, ty);
+        if let Some(name) = self.name(leaf).map(|name| format!("d_{name}")) {
+            self.set_name(new, &name);
+        }
         self.tangent_states.insert(key, new);
         new
     }

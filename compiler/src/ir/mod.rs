@@ -9,6 +9,7 @@ mod merge;
 mod op;
 mod powers;
 mod regions;
+mod replace;
 mod schedule;
 mod text;
 mod transcribe;

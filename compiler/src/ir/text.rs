@@ -58,6 +58,7 @@ fn mnemonic(op: Op) -> String {
         }
         Op::Result(k) => format!("result {k}"),
         Op::Apply(Prim::PowInt(n)) => format!("powint {n}"),
+        Op::Apply(Prim::Polygamma(n)) => format!("polygamma {n}"),
         Op::Apply(prim) => table::row(prim).mnemonic.into(),
     }
 }
@@ -139,6 +140,7 @@ fn parse_op<'a>(words: &mut impl Iterator<Item = &'a str>) -> Option<Op> {
         },
         "result" => Op::Result(words.next()?.parse().ok()?),
         "powint" => Op::Apply(Prim::PowInt(words.next()?.parse().ok()?)),
+        "polygamma" => Op::Apply(Prim::Polygamma(words.next()?.parse().ok()?)),
         _ => Op::Apply(table::rows().iter().find(|row| row.mnemonic == word)?.prim),
     })
 }

@@ -38,7 +38,10 @@ fn check_loop(graph: &Graph, id: Id) -> Result<(), &'static str> {
     if graph.ty(it.count) != Ty::Real || it.until.is_some_and(|u| graph.ty(u) != Ty::Bool) {
         return Err("a loop's count or condition has the wrong type");
     }
-    for state in &it.states {
+    for (k, state) in it.states.iter().enumerate() {
+        if it.states[..k].iter().any(|other| other.leaf == state.leaf) {
+            return Err("a loop has two states with one leaf");
+        }
         let ty = graph.ty(state.leaf);
         let is_own = matches!(graph.node(state.leaf).op, Op::State(b, _) if b == it.binder);
         if !is_own || graph.ty(state.init) != ty || graph.ty(state.next) != ty {

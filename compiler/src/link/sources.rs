@@ -16,6 +16,9 @@ const MATH: &str = concat!(
     include_str!("../../shaders/math/complex_gamma.wgsl"),
     include_str!("../../shaders/math/complex_power.wgsl"),
     include_str!("../../shaders/math/pairs.wgsl"),
+    include_str!("../../shaders/math/hash.wgsl"),
+    include_str!("../../shaders/math/slope.wgsl"),
+    include_str!("../../shaders/math/polygamma.wgsl"),
 );
 
 /// Functions that scenes draw with, as one text.

@@ -359,14 +359,21 @@ impl Lowering<'_, '_, '_> {
             Gpu::Structural => match prim {
                 Prim::Select => Ok(self.select(&args)),
                 Prim::PowInt(n) => {
-                    let n = self
-                        .body
-                        .declare(Expression::Literal(naga::Literal::I32(n)));
+                    let n = self.integer(n);
                     self.library("real_powi", vec![args[0], n])
+                }
+                Prim::Polygamma(n) => {
+                    let n = self.integer(n.into());
+                    self.library("real_polygamma", vec![args[0], n])
                 }
                 _ => Err(LowerError::NoForm(table::row(prim).usage)),
             },
         }
+    }
+
+    fn integer(&mut self, n: i32) -> Handle<Expression> {
+        self.body
+            .declare(Expression::Literal(naga::Literal::I32(n)))
     }
 
     fn is_quotient(&self, id: Id) -> bool {
@@ -456,10 +463,12 @@ impl Lowering<'_, '_, '_> {
                 Ok(self.binary(BinaryOperator::Multiply, a, inverse))
             }
             (Prim::PowInt(n), &[z]) => {
-                let n = self
-                    .body
-                    .declare(Expression::Literal(naga::Literal::I32(n)));
+                let n = self.integer(n);
                 self.library("complex_powi", vec![z, n])
+            }
+            (Prim::Polygamma(n), &[z]) => {
+                let n = self.integer(n.into());
+                self.library("complex_polygamma", vec![z, n])
             }
             _ => {
                 let row = table::row(prim);

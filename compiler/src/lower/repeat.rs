@@ -31,20 +31,21 @@ impl Lowering<'_, '_, '_> {
 
         self.body.open();
         let now = self.body.load(done);
+        // the count may be NaN: then there is no step
         let goes_on = self.binary(BinaryOperator::Less, now, count);
-        self.leave_unless(goes_on);
+        let ends = self.unary(UnaryOperator::LogicalNot, goes_on);
+        self.leave_if(ends);
         if let Some(counter) = plan.counter {
-            self.values[counter.index()] = Some(now);
+            self.keep(counter, now);
         }
         for (state, &variable) in it.states.iter().zip(&variables) {
             let value = self.body.load(variable);
-            self.values[state.leaf.index()] = Some(value);
+            self.keep(state.leaf, value);
         }
         self.block(schedule, &plan.before)?;
         if let Some(until) = it.until {
             let ends = self.value(until)?;
-            let goes_on = self.unary(UnaryOperator::LogicalNot, ends);
-            self.leave_unless(goes_on);
+            self.leave_if(ends);
         }
         self.block(schedule, &plan.after)?;
         for (state, &variable) in it.states.iter().zip(&variables) {
@@ -89,21 +90,34 @@ impl Lowering<'_, '_, '_> {
         )]
         let limit = self.body.literal(it.limit as f32);
         let beyond = self.binary(BinaryOperator::Greater, floor, limit);
-        Ok(self.body.emit(Expression::Select {
+        let count = self.body.emit(Expression::Select {
             condition: beyond,
             accept: limit,
             reject: floor,
-        }))
+        });
+        // else it would be written out in the condition, and computed in every step
+        let named = &mut self.body.function.named_expressions;
+        named.insert(count, "count".to_owned());
+        Ok(count)
     }
 
-    fn leave_unless(&mut self, goes_on: Handle<Expression>) {
-        let mut reject = Block::new();
-        reject.push(Statement::Break, naga::Span::UNDEFINED);
+    fn leave_if(&mut self, condition: Handle<Expression>) {
+        let mut accept = Block::new();
+        accept.push(Statement::Break, naga::Span::UNDEFINED);
         self.body.statement(Statement::If {
-            condition: goes_on,
-            accept: Block::new(),
-            reject,
+            condition,
+            accept,
+            reject: Block::new(),
         });
+    }
+
+    /// The value of a leaf during a step, under the user's name where it has one.
+    fn keep(&mut self, leaf: Id, value: Handle<Expression>) {
+        self.values[leaf.index()] = Some(value);
+        if let Some(name) = self.graph.name(leaf) {
+            let name = super::identifier(name);
+            self.body.function.named_expressions.insert(value, name);
+        }
     }
 
     /// What was computed in the steps does not hold outside of the loop.
@@ -132,9 +146,9 @@ impl Lowering<'_, '_, '_> {
 
     fn state_name(&self, leaf: Id) -> String {
         match (self.graph.name(leaf), self.graph.node(leaf).op) {
-            (Some(name), _) => super::identifier(name),
-            (None, Op::State(_, k)) => format!("s{k}"),
-            _ => "s".to_owned(),
+            (Some(name), _) => format!("{}_state", super::identifier(name)),
+            (None, Op::State(_, k)) => format!("state{k}"),
+            _ => "state".to_owned(),
         }
     }
 }

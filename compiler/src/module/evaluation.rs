@@ -17,6 +17,9 @@ pub enum What {
     Gradient,
     /// The value, and f′; for a function of a complex variable that is not holomorphic, ∂f/∂z and ∂f/∂z̄.
     Derivative,
+    /// The value, its partial derivatives by every real input, and its second derivatives: those by two inputs once,
+    /// as they do not depend on the order.
+    Hessian,
 }
 
 /// Results of a formula at a point, as IR.
@@ -51,7 +54,10 @@ pub fn evaluation(formula: &Formula, what: What) -> Result<Evaluation, ModuleErr
     out.names = value_names.clone();
     match what {
         What::Value => {}
-        What::Gradient => out.gradient(formula, &roots, &value_names)?,
+        What::Gradient => {
+            out.gradient(formula, &roots, &value_names)?;
+        }
+        What::Hessian => out.hessian(formula, &roots, &value_names)?,
         What::Derivative => out.derivative(formula, &roots)?,
     }
     Ok(out)
@@ -73,28 +79,58 @@ impl Evaluation {
         formula: &Formula,
         roots: &[Id],
         value_names: &[String],
-    ) -> Result<(), ModuleError> {
+    ) -> Result<Vec<Vec<Id>>, ModuleError> {
         let scalars = formula.scalars();
         if scalars.contains(&Ty::Complex) || !matches!(formula.ty, Type::Real | Type::Vector(_)) {
             return Err(demand(
                 "a gradient is of a real function of reals; ask for the derivative",
             ));
         }
-        let leaves: Vec<Id> = scalars
-            .iter()
-            .enumerate()
-            .map(|(k, &ty)| Formula::leaf(&mut self.graph, k, ty))
-            .collect();
+        let leaves = self.leaves(formula);
         let columns = formula.columns();
+        let mut gradients = Vec::new();
         for (&root, name) in roots.iter().zip(value_names) {
             let derived =
                 gradient(&mut self.graph, root, &leaves).map_err(LowerError::NoDerivative)?;
-            for (partial, column) in derived.partials.into_iter().zip(&columns) {
+            for (&partial, column) in derived.partials.iter().zip(&columns) {
                 self.push(partial);
                 self.names.push(format!("d{name}/d{column}"));
             }
+            gradients.push(derived.partials);
+        }
+        Ok(gradients)
+    }
+
+    /// Second derivatives, behind the gradient.
+    fn hessian(
+        &mut self,
+        formula: &Formula,
+        roots: &[Id],
+        value_names: &[String],
+    ) -> Result<(), ModuleError> {
+        let gradients = self.gradient(formula, roots, value_names)?;
+        let leaves = self.leaves(formula);
+        let columns = formula.columns();
+        let (zero, one) = (self.graph.real(0.0), self.graph.real(1.0));
+        for (partials, name) in gradients.into_iter().zip(value_names) {
+            for (i, first) in columns.iter().enumerate() {
+                for j in i..columns.len() {
+                    let seed = [(leaves[j], one)];
+                    let second = forward(&mut self.graph, &partials[i..=i], &seed)
+                        .map_err(LowerError::NoDerivative)?;
+                    self.push(second[0].unwrap_or(zero));
+                    self.names.push(format!("d2{name}/d{first}d{}", columns[j]));
+                }
+            }
         }
         Ok(())
+    }
+
+    fn leaves(&mut self, formula: &Formula) -> Vec<Id> {
+        let scalars = formula.scalars().into_iter().enumerate();
+        scalars
+            .map(|(k, ty)| Formula::leaf(&mut self.graph, k, ty))
+            .collect()
     }
 
     fn derivative(&mut self, formula: &Formula, roots: &[Id]) -> Result<(), ModuleError> {

@@ -1,13 +1,13 @@
 //! The pictures of a program.
 
 use super::settings::default_settings;
-use super::{MAX_SHOWS, Picture};
+use super::{MAX_SHOWS, Picture, Signature};
 use crate::check::{Builder, Symbols, nearest, quoted};
 use crate::scene::{Space, default_scene, scene, scenes};
 use crate::types::Type;
 use pullback_grammar::ast::{Expr, ExprId, File, Function, Item, Show};
 use pullback_grammar::{Diagnostic, Span};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What a picture shows: a function, or a formula in free variables.
 #[derive(Clone, Copy)]
@@ -22,6 +22,10 @@ pub(super) struct Checker<'a> {
     pub(super) diagnostics: Vec<Diagnostic>,
     /// Functions that something shown, or a constant, has called: they are checked.
     pub(super) called: FxHashSet<&'a str>,
+    /// The types with which functions are used.
+    pub(super) signatures: FxHashMap<&'a str, Vec<Signature>>,
+    /// Types of the constants that are used.
+    pub(super) constants: FxHashMap<&'a str, Type>,
     /// The range of each parameter that states one.
     pub(super) ranges: Vec<Option<(f64, f64)>>,
 }
@@ -35,6 +39,7 @@ impl<'a> Checker<'a> {
     pub(super) fn finish(&mut self, builder: &mut Builder<'a>) {
         self.diagnostics.append(&mut builder.diagnostics);
         self.called.extend(builder.called());
+        self.remember_types(builder);
     }
 
     /// Whether an error lies in this part of the text: what follows from it is not reported.

@@ -1,6 +1,7 @@
 //! A whole program: its parameters and the pictures that it shows.
 
 mod checker;
+mod outline;
 mod params;
 mod settings;
 mod subject;
@@ -11,9 +12,11 @@ use crate::formula::Formula;
 use crate::scene::{Scene, SettingSpec};
 use checker::Checker;
 use glam::DVec3;
+pub use outline::{ConstantInfo, FunctionInfo, MAX_SIGNATURES, Outline, Signature};
 use pullback_grammar::diagnostic::limit;
 use pullback_grammar::{Diagnostic, Span};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
+pub use unused::MAX_UNUSED;
 
 /// A parameter: a number that can change without compiling again.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,6 +90,8 @@ pub struct Compilation {
     pub program: Option<Program>,
     /// Everything that was found, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
+    /// What the text defines, errors or not.
+    pub outline: Outline,
 }
 
 /// Compiles a program: parses it, resolves names and types, and builds the IR of what it shows.
@@ -116,11 +121,14 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
         symbols: &symbols,
         diagnostics,
         called: FxHashSet::default(),
+        signatures: FxHashMap::default(),
+        constants: FxHashMap::default(),
         ranges: Vec::new(),
     };
     let params = checker.params();
     let pictures = checker.pictures();
     checker.unused_functions();
+    let outline = checker.outline(&params);
     let mut diagnostics = checker.diagnostics;
     let failed = diagnostics.iter().any(Diagnostic::is_error);
     if !failed && pictures.is_empty() {
@@ -142,6 +150,7 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
     Compilation {
         program,
         diagnostics,
+        outline,
     }
 }
 

@@ -17,14 +17,14 @@ const GENERIC: [Type; 5] = [
     Type::Vector(4),
 ];
 
-/// Greatest number of times that such functions are built, all together.
-const MAX_ATTEMPTS: usize = 2000;
+/// Greatest number of times that functions which nothing uses are built, all together; what is beyond is not checked.
+pub const MAX_UNUSED: usize = 2000;
 
 impl<'a> Checker<'a> {
     /// Checks functions that nothing calls. Where parameters have no fixed type, types are looked for with which
     /// the function makes sense; if there are none, what is wrong with it for reals is reported.
     pub(super) fn unused_functions(&mut self) {
-        let mut attempts = MAX_ATTEMPTS;
+        let mut attempts = MAX_UNUSED;
         let functions = self.file.items.iter().filter_map(|item| match item {
             Item::Function(function) => Some(function),
             _ => None,

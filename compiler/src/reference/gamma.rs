@@ -114,10 +114,16 @@ fn horner_complex(c: &[f64], w: Complex) -> Complex {
     })
 }
 
-/// sin πx and cos πx with an exact reduction.
-fn sin_cos_pi(x: f64) -> (f64, f64) {
+/// sin πx and cos πx with an exact reduction; both are exact zeros where they vanish.
+pub(super) fn sin_cos_pi(x: f64) -> (f64, f64) {
     let n = x.round();
-    let (sin, cos) = ((x - n) * PI).sin_cos();
+    let f = x - n;
+    let (sin, cos) = if f.abs() > 0.25 {
+        let (cos, sin) = ((0.5 - f.abs()) * PI).sin_cos();
+        (sin.copysign(f), cos)
+    } else {
+        (f * PI).sin_cos()
+    };
     if n % 2.0 == 0.0 {
         (sin, cos)
     } else {
@@ -126,7 +132,7 @@ fn sin_cos_pi(x: f64) -> (f64, f64) {
 }
 
 /// A pole: NaN where the two sides disagree, as `tgamma` at the negative integers (C99 F.9.5.4).
-fn is_pole(x: f64) -> bool {
+pub(super) fn is_pole(x: f64) -> bool {
     x <= 0.0 && x == x.round()
 }
 
@@ -281,19 +287,24 @@ pub fn trigamma(x: f64) -> f64 {
 }
 
 /// Whether Stirling's series may be used as it stands.
-fn is_far(z: Complex) -> bool {
+pub(super) fn is_far(z: Complex) -> bool {
     z.im.abs() >= FAR || z.re >= FAR
 }
 
-/// 1 / tan πz with the real part reduced exactly.
-fn cot_pi(z: Complex) -> Complex {
-    complex((z.re - z.re.round()) * PI, z.im * PI)
-        .tan()
-        .inverse()
+/// cot πz = (sin πx cos πx - i sinh πy cosh πy) / (sin² πx + sinh² πy), where no part cancels, for |y| below 100.
+pub(super) fn cot_pi(z: Complex) -> Complex {
+    let (sin, cos) = sin_cos_pi(z.re);
+    let (sinh, cosh) = ((z.im * PI).sinh(), (z.im * PI).cosh());
+    let norm = sin * sin + sinh * sinh;
+    if norm < 1e-280 {
+        // beside a pole, where the squares may underflow: 1/(πz)
+        return complex(z.re - z.re.round(), z.im).scale(PI).inverse();
+    }
+    complex(sin * cos / norm, -sinh * cosh / norm)
 }
 
 /// sin πz with the real part reduced exactly.
-fn sin_pi(z: Complex) -> Complex {
+pub(super) fn sin_pi(z: Complex) -> Complex {
     let n = z.re.round();
     let s = complex((z.re - n) * PI, z.im * PI).sin();
     if n % 2.0 == 0.0 { s } else { -s }

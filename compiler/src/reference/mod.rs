@@ -7,7 +7,10 @@
 pub mod arc;
 pub mod complex;
 pub mod gamma;
+pub mod hash;
+pub mod polygamma;
 pub mod real;
+pub mod slope;
 pub mod wave;
 
 pub use complex::Complex;

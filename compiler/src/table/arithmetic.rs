@@ -2,7 +2,8 @@
 
 use naga::{BinaryOperator, MathFunction, UnaryOperator};
 
-use super::derivative::{call, nonzero, plus, reciprocal, scaled};
+use super::derivative::{call, plus, reciprocal, square};
+use super::slope::direction;
 use super::{Derivative, Gpu, Row, Typing, Weight};
 use crate::ir::{Graph, Id, Prim};
 use crate::reference::real;
@@ -158,11 +159,12 @@ pub fn rows() -> Vec<Row> {
             typing: Typing::Real(1),
             real: Some(|a| real::cbrt(a[0])),
             complex: None,
-            // 1 / (3 cbrt(x)²)
+            // (1/cbrt x)²/3: with the square below the fraction bar its own derivative at 0 would be 0 · ∞
             derivative: Derivative::Partial(|g, _, value, _| {
-                let square = g.apply(Prim::PowInt(2), &[value]);
-                let three = scaled(g, 3.0, square);
-                reciprocal(g, three)
+                let inverse = reciprocal(g, value);
+                let square = square(g, inverse);
+                let three = g.real(3.0);
+                g.div(square, three)
             }),
             gpu: Gpu::Library("real_cbrt", None),
             gpu_complex: "",
@@ -210,11 +212,11 @@ pub fn rows() -> Vec<Row> {
 
 /// ∂|p|/∂p_k = p_k / |p|, and 0 at the origin.
 fn length_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
-    let divisor = nonzero(g, value);
-    g.div(args[k], divisor)
+    direction(g, args, k, value)
 }
 
-/// ∂(a^b)/∂a = b a^(b-1), which is finite at a = 0 where a^b b/a is not, and 0 for b = 0; ∂(a^b)/∂b = a^b log a, and 0 at a = 0.
+/// ∂(a^b)/∂a = b a^(b-1), which is finite at a = 0 where a^b b/a is not, and 0 for a = b = 0; ∂(a^b)/∂b = a^b log a, and 0
+/// at a = 0.
 fn pow_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     let &[base, exponent] = args else {
         return value;
@@ -224,15 +226,17 @@ fn pow_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     } else {
         g.real(0.0)
     };
+    let at_zero = g.apply(Prim::Equal, &[base, zero]);
     if k == 0 {
         let lower = plus(g, exponent, -1.0);
         let power = g.apply(Prim::Pow, &[base, lower]);
         let product = g.mul(exponent, power);
+        // only there: for b = 0 alone the mixed derivative 1/a would be lost
         let constant = g.apply(Prim::Equal, &[exponent, zero]);
-        return g.apply(Prim::Select, &[constant, zero, product]);
+        let both = g.apply(Prim::And, &[constant, at_zero]);
+        return g.apply(Prim::Select, &[both, zero, product]);
     }
     let log = call(g, Prim::Log, base);
     let product = g.mul(value, log);
-    let at_zero = g.apply(Prim::Equal, &[base, zero]);
     g.apply(Prim::Select, &[at_zero, zero, product])
 }

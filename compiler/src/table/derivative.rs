@@ -14,12 +14,6 @@ pub fn plus(g: &mut Graph, a: Id, c: f64) -> Id {
     g.add(a, c)
 }
 
-/// c - a for a constant c
-pub fn from(g: &mut Graph, c: f64, a: Id) -> Id {
-    let c = g.real(c);
-    g.sub(c, a)
-}
-
 /// c · a for a constant c
 pub fn scaled(g: &mut Graph, c: f64, a: Id) -> Id {
     let c = g.real(c);
@@ -29,14 +23,6 @@ pub fn scaled(g: &mut Graph, c: f64, a: Id) -> Id {
 /// a²
 pub fn square(g: &mut Graph, a: Id) -> Id {
     g.apply(Prim::PowInt(2), &[a])
-}
-
-/// i a for complex a, by exchange of the parts: a product would lose the sign of a zero, and with it the side of a
-/// cut.
-pub fn turn(g: &mut Graph, a: Id) -> Id {
-    let (re, im) = (call(g, Prim::Re, a), call(g, Prim::Im, a));
-    let minus = g.neg(im);
-    g.apply(Prim::Complex, &[minus, re])
 }
 
 /// A function of one operand.
@@ -49,15 +35,4 @@ pub fn nonzero(g: &mut Graph, a: Id) -> Id {
     let (zero, one) = (g.real(0.0), g.real(1.0));
     let vanishes = g.apply(Prim::Equal, &[a, zero]);
     g.apply(Prim::Select, &[vanishes, one, a])
-}
-
-/// √(1 - x) √(1 + x), whose branch cuts are those of asin and acos; for reals √((1 - x)(1 + x)).
-pub fn sqrt_one_minus_square(g: &mut Graph, x: Id) -> Id {
-    let (below, above) = (from(g, 1.0, x), plus(g, x, 1.0));
-    if g.ty(x) == crate::ir::Ty::Real {
-        let product = g.mul(below, above);
-        return call(g, Prim::Sqrt, product);
-    }
-    let (below, above) = (call(g, Prim::Sqrt, below), call(g, Prim::Sqrt, above));
-    g.mul(below, above)
 }

@@ -2,9 +2,9 @@
 
 use naga::MathFunction;
 
-use super::derivative::{call, from, plus, reciprocal, square, turn};
+use super::derivative::{call, square};
 use super::{Derivative, Gpu, Row, Typing, Weight};
-use crate::ir::{Graph, Id, Prim, Ty};
+use crate::ir::Prim;
 use crate::reference::real;
 
 pub fn rows() -> Vec<Row> {
@@ -52,10 +52,9 @@ pub fn rows() -> Vec<Row> {
             typing: Typing::Analytic(1),
             real: Some(|a| real::tanh(a[0])),
             complex: Some(|a| a[0].tanh()),
-            // 1/cosh² a: 1 - tanh² a cancels where tanh a is near ±1
+            // sech² a: 1 - tanh² a cancels where tanh a is near ±1
             derivative: Derivative::Partial(|g, args, _, _| {
-                let cosh = call(g, Prim::Cosh, args[0]);
-                let sech = reciprocal(g, cosh);
+                let sech = call(g, Prim::Sech, args[0]);
                 square(g, sech)
             }),
             gpu: Gpu::Library("real_tanh", Some(MathFunction::Tanh)),
@@ -63,6 +62,50 @@ pub fn rows() -> Vec<Row> {
             cost: Weight {
                 real: 12,
                 complex: 40,
+            },
+        },
+        Row {
+            prim: Prim::Sech,
+            mnemonic: "sech",
+            names: &["sech"],
+            usage: "sech(a)",
+            doc: "hyperbolic secant, 1/cosh(a)",
+            typing: Typing::Analytic(1),
+            real: Some(|a| 1.0 / real::cosh(a[0])),
+            complex: Some(|a| a[0].cosh().inverse()),
+            // -sech tanh: by the rule of quotients it is 0 · ∞ where cosh overflows
+            derivative: Derivative::Partial(|g, args, value, _| {
+                let tanh = call(g, Prim::Tanh, args[0]);
+                let product = g.mul(value, tanh);
+                g.neg(product)
+            }),
+            gpu: Gpu::Library("real_sech", None),
+            gpu_complex: "complex_sech",
+            cost: Weight {
+                real: 16,
+                complex: 44,
+            },
+        },
+        Row {
+            prim: Prim::Csch,
+            mnemonic: "csch",
+            names: &["csch"],
+            usage: "csch(a)",
+            doc: "hyperbolic cosecant, 1/sinh(a)",
+            typing: Typing::Analytic(1),
+            real: Some(|a| 1.0 / real::sinh(a[0])),
+            complex: Some(|a| a[0].sinh().inverse()),
+            // -csch / tanh
+            derivative: Derivative::Partial(|g, args, value, _| {
+                let tanh = call(g, Prim::Tanh, args[0]);
+                let quotient = g.div(value, tanh);
+                g.neg(quotient)
+            }),
+            gpu: Gpu::Library("real_csch", None),
+            gpu_complex: "complex_csch",
+            cost: Weight {
+                real: 16,
+                complex: 44,
             },
         },
         Row {
@@ -74,7 +117,7 @@ pub fn rows() -> Vec<Row> {
             typing: Typing::Analytic(1),
             real: Some(|a| real::asinh(a[0])),
             complex: Some(|a| a[0].asinh()),
-            derivative: Derivative::Partial(asinh_partial),
+            derivative: Derivative::Partial(|g, args, _, _| call(g, Prim::AsinhSlope, args[0])),
             gpu: Gpu::Library("real_asinh", Some(MathFunction::Asinh)),
             gpu_complex: "complex_asinh",
             cost: Weight {
@@ -91,13 +134,7 @@ pub fn rows() -> Vec<Row> {
             typing: Typing::Analytic(1),
             real: Some(|a| real::acosh(a[0])),
             complex: Some(|a| a[0].acosh()),
-            // 1 / (√(a - 1) √(a + 1))
-            derivative: Derivative::Partial(|g, args, _, _| {
-                let (below, above) = (plus(g, args[0], -1.0), plus(g, args[0], 1.0));
-                let (below, above) = (call(g, Prim::Sqrt, below), call(g, Prim::Sqrt, above));
-                let root = g.mul(below, above);
-                reciprocal(g, root)
-            }),
+            derivative: Derivative::Partial(|g, args, _, _| call(g, Prim::AcoshSlope, args[0])),
             gpu: Gpu::Library("real_acosh", Some(MathFunction::Acosh)),
             gpu_complex: "complex_acosh",
             cost: Weight {
@@ -114,7 +151,7 @@ pub fn rows() -> Vec<Row> {
             typing: Typing::Analytic(1),
             real: Some(|a| real::atanh(a[0])),
             complex: Some(|a| a[0].atanh()),
-            derivative: Derivative::Partial(atanh_partial),
+            derivative: Derivative::Partial(|g, args, _, _| call(g, Prim::AtanhSlope, args[0])),
             gpu: Gpu::Library("real_atanh", Some(MathFunction::Atanh)),
             gpu_complex: "complex_atanh",
             cost: Weight {
@@ -123,29 +160,4 @@ pub fn rows() -> Vec<Row> {
             },
         },
     ]
-}
-
-/// 1 / √(1 + a²): 1/hypot(1, x) for reals, 1 / (√(1 + i a) √(1 - i a)) for complex numbers; neither overflows.
-fn asinh_partial(g: &mut Graph, args: &[Id], _: Id, _: usize) -> Id {
-    let one = g.real(1.0);
-    if g.ty(args[0]) == Ty::Real {
-        let root = g.apply(Prim::Hypot, &[one, args[0]]);
-        return reciprocal(g, root);
-    }
-    let turned = turn(g, args[0]);
-    let (above, below) = (plus(g, turned, 1.0), from(g, 1.0, turned));
-    let (above, below) = (call(g, Prim::Sqrt, above), call(g, Prim::Sqrt, below));
-    let root = g.mul(above, below);
-    reciprocal(g, root)
-}
-
-/// 1 / ((1 - a)(1 + a)); for complex numbers by factors, which do not overflow.
-fn atanh_partial(g: &mut Graph, args: &[Id], _: Id, _: usize) -> Id {
-    let (below, above) = (from(g, 1.0, args[0]), plus(g, args[0], 1.0));
-    if g.ty(args[0]) == Ty::Real {
-        let product = g.mul(below, above);
-        return reciprocal(g, product);
-    }
-    let (below, above) = (reciprocal(g, below), reciprocal(g, above));
-    g.mul(below, above)
 }

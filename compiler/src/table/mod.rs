@@ -11,6 +11,7 @@ mod exponential;
 mod hyperbolic;
 mod number;
 mod rounding;
+mod slope;
 mod special;
 mod trigonometric;
 mod typing;
@@ -21,8 +22,9 @@ use std::sync::OnceLock;
 use naga::{BinaryOperator, MathFunction, UnaryOperator};
 use rustc_hash::FxHashMap;
 
-pub(crate) use derivative::nonzero;
 pub use number::Number;
+pub(crate) use slope::direction;
+pub use special::MAX_POLYGAMMA;
 pub use typing::Typing;
 
 use crate::ir::{Graph, Id, Prim};
@@ -37,7 +39,7 @@ pub struct Row {
     pub mnemonic: &'static str,
     /// Names in the language, the first is the usual one; empty where there is only a sign.
     pub names: &'static [&'static str],
-    /// How it is written, such as `atan2(y, x)` or `a + b`.
+    /// How it is written, such as `atan2(y, x)` or `a + b`; empty where only derivatives make it.
     pub usage: &'static str,
     /// One line: what it is.
     pub doc: &'static str,
@@ -152,6 +154,12 @@ impl Row {
             .unwrap_or_else(|| written.trim_matches(is_operand))
     }
 
+    /// Whether there is a way to write it; others only derivatives make.
+    #[must_use]
+    pub fn is_written(&self) -> bool {
+        !self.usage.is_empty()
+    }
+
     /// The operation's value, in `f64`; `None` where the operand types do not fit.
     #[must_use]
     pub fn evaluate(&self, prim: Prim, operands: &[Number]) -> Option<Number> {
@@ -172,6 +180,7 @@ pub fn rows() -> &'static [Row] {
         rows.extend(rounding::rows());
         rows.extend(comparison::rows());
         rows.extend(special::rows());
+        rows.extend(slope::rows());
         rows
     })
 }
@@ -186,6 +195,15 @@ pub fn row(prim: Prim) -> &'static Row {
         .get(&discriminant(&prim))
         .copied()
         .unwrap_or(&rows()[0])
+}
+
+/// How an operation is differentiated: as its row says, and of a family not beyond its last member.
+#[must_use]
+pub fn derivative(prim: Prim) -> Derivative {
+    match prim {
+        Prim::Polygamma(n) if n >= MAX_POLYGAMMA => Derivative::Missing,
+        _ => row(prim).derivative,
+    }
 }
 
 /// The row of a function by its name or alias in the language.

@@ -51,7 +51,7 @@ pub(super) fn evaluate(row: &Row, prim: Prim, operands: &[Number]) -> Option<Num
     Some(Number::Complex(row.complex?(&operands)))
 }
 
-type ArgBuffer<T> = smallvec::SmallVec<[T; 3]>;
+type ArgBuffer<T> = smallvec::SmallVec<[T; 4]>;
 
 /// Operations whose operand or result types are not all alike.
 fn structural(prim: Prim, operands: &[Number]) -> Option<Number> {
@@ -59,6 +59,8 @@ fn structural(prim: Prim, operands: &[Number]) -> Option<Number> {
     Some(match (prim, operands) {
         (Prim::PowInt(n), &[R(x)]) => R(crate::reference::real::powi(x, n)),
         (Prim::PowInt(n), &[C(z)]) => C(z.powi(n)),
+        (Prim::Polygamma(n), &[R(x)]) => R(crate::reference::polygamma::polygamma(n, x)),
+        (Prim::Polygamma(n), &[C(z)]) => C(z.polygamma(n)),
         (Prim::Complex, &[R(re), R(im)]) => C(complex(re, im)),
         (Prim::Re, &[C(z)]) => R(z.re),
         (Prim::Im, &[C(z)]) => R(z.im),

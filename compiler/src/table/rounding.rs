@@ -1,9 +1,10 @@
-//! Rounding, remainders, signs, minimum and maximum.
+//! Rounding, remainders, signs, minimum and maximum, and numbers for lattice points.
 
 use naga::MathFunction;
 
 use super::{Derivative, Gpu, Row, Typing, Weight};
 use crate::ir::Prim;
+use crate::reference::hash::hash;
 use crate::reference::real;
 
 const CHEAP: Weight = Weight {
@@ -154,6 +155,24 @@ pub fn rows() -> Vec<Row> {
             gpu: Gpu::Builtin(MathFunction::Max),
             gpu_complex: "",
             cost: CHEAP,
+        },
+        Row {
+            prim: Prim::Hash,
+            mnemonic: "hash",
+            names: &["hash"],
+            usage: "hash(x, y, z, w)",
+            doc: "a number in [0, 1) for each point of the lattice of integers, 24 bits, the same on every adapter; arguments are rounded down",
+            typing: Typing::Real(4),
+            real: Some(hash),
+            complex: None,
+            derivative: Derivative::Zero,
+            gpu: Gpu::Library("real_hash", None),
+            gpu_complex: "",
+            // the words of y, z and w are shared with the neighbours along x
+            cost: Weight {
+                real: 20,
+                complex: 0,
+            },
         },
     ]
 }

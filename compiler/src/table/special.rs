@@ -1,8 +1,21 @@
 //! The gamma function and its logarithmic derivatives.
 
 use super::{Derivative, Gpu, Row, Typing, Weight};
-use crate::ir::Prim;
+use crate::ir::{Graph, Id, Op, Prim};
 use crate::reference::real;
+
+/// The last of the derivatives of digamma that there is a function for: four derivatives of trigamma.
+pub const MAX_POLYGAMMA: u8 = 5;
+
+/// ψ⁽ⁿ⁺¹⁾
+fn polygamma_partial(g: &mut Graph, args: &[Id], value: Id, _: usize) -> Id {
+    match g.node(value).op {
+        Op::Apply(Prim::Polygamma(n)) if n < MAX_POLYGAMMA => {
+            g.apply(Prim::Polygamma(n + 1), &[args[0]])
+        }
+        _ => g.real(f64::NAN),
+    }
+}
 
 pub fn rows() -> Vec<Row> {
     vec![
@@ -70,12 +83,31 @@ pub fn rows() -> Vec<Row> {
             typing: Typing::Analytic(1),
             real: Some(|a| real::trigamma(a[0])),
             complex: Some(|a| a[0].trigamma()),
-            derivative: Derivative::Missing,
+            derivative: Derivative::Partial(|g, args, _, _| {
+                g.apply(Prim::Polygamma(2), &[args[0]])
+            }),
             gpu: Gpu::Library("real_trigamma", None),
             gpu_complex: "complex_trigamma",
             cost: Weight {
                 real: 40,
                 complex: 100,
+            },
+        },
+        Row {
+            prim: Prim::Polygamma(2),
+            mnemonic: "polygamma",
+            names: &[],
+            usage: "",
+            doc: "ψ⁽ⁿ⁾, a higher derivative of digamma",
+            typing: Typing::Analytic(1),
+            real: None,
+            complex: None,
+            derivative: Derivative::Partial(polygamma_partial),
+            gpu: Gpu::Structural,
+            gpu_complex: "complex_polygamma",
+            cost: Weight {
+                real: 60,
+                complex: 160,
             },
         },
     ]

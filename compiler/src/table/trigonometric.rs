@@ -2,7 +2,8 @@
 
 use naga::MathFunction;
 
-use super::derivative::{call, plus, reciprocal, sqrt_one_minus_square, square, turn};
+use super::derivative::{call, plus, square};
+use super::slope::direction;
 use super::{Derivative, Gpu, Row, Typing, Weight};
 use crate::ir::{Graph, Id, Prim, Ty};
 use crate::reference::real;
@@ -64,6 +65,49 @@ pub fn rows() -> Vec<Row> {
             },
         },
         Row {
+            prim: Prim::Sec,
+            mnemonic: "sec",
+            names: &["sec"],
+            usage: "sec(a)",
+            doc: "secant, 1/cos(a)",
+            typing: Typing::Analytic(1),
+            real: Some(|a| 1.0 / real::cos(a[0])),
+            complex: Some(|a| a[0].cos().inverse()),
+            // sec tan: by the rule of quotients it is 0 · ∞ where cos overflows
+            derivative: Derivative::Partial(|g, args, value, _| {
+                let tan = call(g, Prim::Tan, args[0]);
+                g.mul(value, tan)
+            }),
+            gpu: Gpu::Library("real_sec", None),
+            gpu_complex: "complex_sec",
+            cost: Weight {
+                real: 12,
+                complex: 44,
+            },
+        },
+        Row {
+            prim: Prim::Csc,
+            mnemonic: "csc",
+            names: &["csc"],
+            usage: "csc(a)",
+            doc: "cosecant, 1/sin(a)",
+            typing: Typing::Analytic(1),
+            real: Some(|a| 1.0 / real::sin(a[0])),
+            complex: Some(|a| a[0].sin().inverse()),
+            // -csc / tan
+            derivative: Derivative::Partial(|g, args, value, _| {
+                let tan = call(g, Prim::Tan, args[0]);
+                let quotient = g.div(value, tan);
+                g.neg(quotient)
+            }),
+            gpu: Gpu::Library("real_csc", None),
+            gpu_complex: "complex_csc",
+            cost: Weight {
+                real: 12,
+                complex: 44,
+            },
+        },
+        Row {
             prim: Prim::Asin,
             mnemonic: "asin",
             names: &["asin", "arcsin"],
@@ -72,11 +116,7 @@ pub fn rows() -> Vec<Row> {
             typing: Typing::Analytic(1),
             real: Some(|a| real::asin(a[0])),
             complex: Some(|a| a[0].asin()),
-            // 1 / √(1 - a²)
-            derivative: Derivative::Partial(|g, args, _, _| {
-                let root = sqrt_one_minus_square(g, args[0]);
-                reciprocal(g, root)
-            }),
+            derivative: Derivative::Partial(|g, args, _, _| call(g, Prim::AsinSlope, args[0])),
             gpu: Gpu::Library("real_asin", Some(MathFunction::Asin)),
             gpu_complex: "complex_asin",
             cost: Weight {
@@ -93,11 +133,9 @@ pub fn rows() -> Vec<Row> {
             typing: Typing::Analytic(1),
             real: Some(|a| real::acos(a[0])),
             complex: Some(|a| a[0].acos()),
-            // -1 / √(1 - a²)
             derivative: Derivative::Partial(|g, args, _, _| {
-                let root = sqrt_one_minus_square(g, args[0]);
-                let minus = g.real(-1.0);
-                g.div(minus, root)
+                let slope = call(g, Prim::AsinSlope, args[0]);
+                g.neg(slope)
             }),
             gpu: Gpu::Library("real_acos", Some(MathFunction::Acos)),
             gpu_complex: "complex_acos",
@@ -115,7 +153,7 @@ pub fn rows() -> Vec<Row> {
             typing: Typing::Analytic(1),
             real: Some(|a| real::atan(a[0])),
             complex: Some(|a| a[0].atan()),
-            derivative: Derivative::Partial(atan_partial),
+            derivative: Derivative::Partial(|g, args, _, _| call(g, Prim::AtanSlope, args[0])),
             gpu: Gpu::Library("real_atan", Some(MathFunction::Atan)),
             gpu_complex: "complex_atan",
             cost: Weight {
@@ -166,33 +204,17 @@ fn tan_partial(g: &mut Graph, args: &[Id], value: Id, _: usize) -> Id {
         let square = square(g, value);
         return plus(g, square, 1.0);
     }
-    let cos = call(g, Prim::Cos, args[0]);
-    let sec = reciprocal(g, cos);
+    let sec = call(g, Prim::Sec, args[0]);
     square(g, sec)
-}
-
-/// 1 / (1 + a²); for complex numbers as 1/(1 + i a) · 1/(1 - i a), whose factors do not overflow.
-fn atan_partial(g: &mut Graph, args: &[Id], _: Id, _: usize) -> Id {
-    if g.ty(args[0]) == Ty::Real {
-        let square = square(g, args[0]);
-        let sum = plus(g, square, 1.0);
-        return reciprocal(g, sum);
-    }
-    let turned = turn(g, args[0]);
-    let above = plus(g, turned, 1.0);
-    let one = g.real(1.0);
-    let below = g.sub(one, turned);
-    let (above, below) = (reciprocal(g, above), reciprocal(g, below));
-    g.mul(above, below)
 }
 
 /// ∂/∂y = (x/r)/r and ∂/∂x = -(y/r)/r with r = hypot(x, y), which neither overflow nor underflow early.
 fn atan2_partial(g: &mut Graph, args: &[Id], _: Id, k: usize) -> Id {
     let &[y, x] = args else { return args[0] };
     let r = g.apply(Prim::Hypot, &[x, y]);
-    let numerator = if k == 0 { x } else { g.neg(y) };
-    let cosine = g.div(numerator, r);
-    g.div(cosine, r)
+    let cosine = direction(g, &[x, y], k, r);
+    let rate = g.div(cosine, r);
+    if k == 0 { rate } else { g.neg(rate) }
 }
 
 /// (cos x - sinc x)/x away from 0; for |x| < 1 its Taylor series Σ (-1)ᵏ 2k x²ᵏ⁻¹/(2k+1)!, whose first omitted

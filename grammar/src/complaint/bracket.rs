@@ -9,6 +9,9 @@ impl Parser<'_> {
     #[cold]
     pub(crate) fn complain_not_closed(&mut self, opened: &Opened) {
         self.is_broken = true;
+        if self.is_hushed() {
+            return;
+        }
         let (open, close) = match opened.kind {
             TokenKind::LParen => ("(", ")"),
             _ => ("{", "}"),
@@ -35,6 +38,9 @@ impl Parser<'_> {
 
     #[cold]
     pub(crate) fn complain_missing_bar(&mut self, opening: Span) {
+        if self.is_hushed() {
+            return;
+        }
         let doubled = self.text.get(opening.end as usize..);
         let is_doubled = doubled.is_some_and(|rest| rest.starts_with('|'))
             || self
@@ -69,7 +75,7 @@ impl Parser<'_> {
     #[cold]
     pub(crate) fn complain_long_vector(&mut self, span: Span, count: usize) {
         let message = format!("a vector of {count} components");
-        self.diagnostics.push(
+        self.report(
             Diagnostic::error("long-vector", span, message)
                 .with_label("a vector has two to four components")
                 .with_hint("write a function's name before the bracket if a call is meant"),
@@ -111,12 +117,15 @@ impl Parser<'_> {
             return;
         }
         if let Some(place) = self.retract_missing_operator(opening) {
-            self.diagnostics.push(
+            self.report(
                 Diagnostic::error("missing-colon", place, "missing `:`")
                     .with_label("expected `:` between these")
                     .with_hint("write `{ condition: value, else: value }`"),
             );
             self.mark_complained();
+            return;
+        }
+        if self.is_hushed() {
             return;
         }
         let hint = if is_else {
@@ -155,6 +164,9 @@ impl Parser<'_> {
         );
         if self.is_broken && is_consequence {
             self.mark_complained();
+            return;
+        }
+        if self.is_hushed() {
             return;
         }
         let quoted = self.describe();

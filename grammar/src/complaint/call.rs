@@ -39,6 +39,9 @@ impl Parser<'_> {
 
     #[cold]
     pub(crate) fn complain_not_called(&mut self, callee: &Name, primes: u32) {
+        if self.is_hushed() {
+            return;
+        }
         let marks = "'".repeat(primes.min(4) as usize);
         let name = format!("{}{marks}", shorten(&callee.text));
         let argument = match self.kind() {
@@ -81,7 +84,7 @@ impl Parser<'_> {
             "product"
         };
         let message = format!("`{}` is no name of a {name}", callee.text);
-        self.diagnostics.push(
+        self.report(
             Diagnostic::error("foreign-name", callee.span, message)
                 .with_label("a name like any other")
                 .with_hint(format!("write `{name}({})`", meant.example())),
@@ -98,6 +101,26 @@ impl Parser<'_> {
             Diagnostic::error("stray-prime", callee.span.join(self.last_span()), message)
                 .with_label("only a function of one variable has such a derivative")
                 .with_hint(format!("write `diff({name}(…), x)`")),
+        );
+    }
+
+    /// `log|x|^2`: of the argument or of the value?
+    #[cold]
+    pub(crate) fn complain_power_of_bars(&mut self, callee: &Name, bars: Span) {
+        let (name, arg) = (shorten(&callee.text), self.short(bars));
+        let operator = self.short(self.span());
+        let power = if self.at(TokenKind::Caret) {
+            "^…".to_owned()
+        } else {
+            operator
+        };
+        let message = format!("it is not clear what is raised in `{name}{arg}{power}`");
+        self.complain(
+            Diagnostic::error("ambiguous-power", self.span(), message)
+                .with_label("of the argument, or of the value?")
+                .with_hint(format!(
+                    "write `{name}({arg}{power})` or `{name}({arg}){power}`"
+                )),
         );
     }
 

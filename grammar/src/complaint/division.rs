@@ -32,12 +32,15 @@ impl Parser<'_> {
         let (Some((lhs, rhs)), Some(factors)) = (division.operands, division.factors) else {
             return;
         };
+        if self.warns_enough() {
+            return;
+        }
         let (lhs_text, rhs_text, factors_text) =
             (self.short(lhs), self.short(rhs), self.short(factors));
         let read = format!("({lhs_text}/{rhs_text}) {factors_text}");
         let other = format!("{lhs_text}/({rhs_text} {factors_text})");
         let span = lhs.join(factors);
-        self.diagnostics.push(
+        self.report(
             Diagnostic::warning(
                 "ambiguous-division",
                 span,

@@ -12,6 +12,9 @@ impl Parser<'_> {
     #[cold]
     pub(crate) fn foreign_form(&mut self, form: Form, callee: &Name, pieces: &[Piece]) -> Node {
         let span = callee.span.join(self.last_span());
+        if self.is_hushed() {
+            return self.error_node(span);
+        }
         let name = shorten(&callee.text);
         let takes_function =
             matches!(pieces, [Piece::Value(body), ..] if self.is_bare_function(*body));

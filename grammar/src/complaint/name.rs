@@ -48,7 +48,7 @@ impl Parser<'_> {
         let place = self.span();
         if self.primes() > 0 {
             let span = place.join(self.last_span());
-            self.diagnostics.push(
+            self.report(
                 Diagnostic::error(
                     "primes-in-definition",
                     span,
@@ -175,6 +175,9 @@ impl Parser<'_> {
 
     #[cold]
     fn complain_missing_local(&mut self) {
+        if self.is_hushed() {
+            return;
+        }
         let message = format!("missing definition after {}", self.quote(self.last_span()));
         let span = if self.at(TokenKind::End) {
             self.last_span()
@@ -275,7 +278,7 @@ impl Parser<'_> {
     fn complain_bad_field(&mut self, name: &Name, field: &Name) {
         let (name, letters) = (shorten(&name.text), shorten(&field.text));
         let message = format!("`.{letters}` does not name components to replace");
-        self.diagnostics.push(
+        self.report(
             Diagnostic::error("bad-update", field.span, message)
                 .with_label("expected letters of `xyzw` or `rgba`, each once")
                 .with_hint(format!("write `{name}.x = …` or `{name}.xy = …`")),
@@ -390,13 +393,16 @@ impl Parser<'_> {
     #[cold]
     fn complain_conditional(&mut self, code: &'static str, word: &str, opening: Span) {
         if let Some(place) = self.retract_missing_operator(opening) {
-            self.diagnostics.push(
+            self.report(
                 Diagnostic::error(code, place, format!("missing `{word}`"))
                     .with_label(format!("expected `{word}` between these"))
                     .with_related(opening, "the conditional begins here")
                     .with_hint("write `if c then a else b`"),
             );
             self.mark_complained();
+            return;
+        }
+        if self.is_hushed() {
             return;
         }
         let message = format!("missing `{word}` before {}", self.describe());

@@ -71,6 +71,9 @@ impl Parser<'_> {
 
     #[cold]
     fn complain_missing_operand(&mut self) {
+        if self.is_hushed() {
+            return;
+        }
         let (before, here) = (self.behind(), self.kind());
         let last = self.last_span();
         let applies = before.is_infix() || matches!(before, TokenKind::Not | TokenKind::Root);
@@ -147,7 +150,7 @@ impl Parser<'_> {
         } else if value == 0.0 {
             let mantissa = digits.split(['e', 'E']).next().unwrap_or(digits);
             if mantissa.contains(|c: char| matches!(c, '1'..='9')) {
-                self.diagnostics.push(
+                self.report(
                     Diagnostic::warning("number-too-small", self.span(), "the number is read as 0")
                         .with_label("the smallest is about 4.9e-324")
                         .with_hint("write `0`"),

@@ -8,6 +8,9 @@ use crate::{Diagnostic, Span};
 impl Parser<'_> {
     #[cold]
     pub(crate) fn complain_missing_operator(&mut self) {
+        if self.is_hushed() {
+            return;
+        }
         let (before, here) = (self.last_span(), self.kind());
         let (lhs, rhs) = (self.short(before), self.short(self.span()));
         let is_number = |kind| matches!(kind, TokenKind::Number | TokenKind::Imaginary);
@@ -55,10 +58,7 @@ impl Parser<'_> {
     pub(crate) fn retract_missing_operator(&mut self, start: Span) -> Option<Span> {
         let last = self.diagnostics.last()?;
         let is_it = last.code == "missing-operator" && last.span.start >= start.start;
-        is_it
-            .then(|| self.diagnostics.pop())
-            .flatten()
-            .map(|last| last.span)
+        is_it.then(|| self.take_back()).flatten()
     }
 
     /// Reads `=` between operands as a comparison; `=<` and `=>` as what they were meant to be.

@@ -247,7 +247,7 @@ impl Parser<'_> {
     pub(crate) fn complain_too_deep(&mut self, span: Span) {
         if !self.is_abandoned() {
             let message = format!("nested more than {MAX_NESTING} deep");
-            self.diagnostics.push(
+            self.report(
                 Diagnostic::error("too-deep", span, message)
                     .with_label("not read from here on")
                     .with_hint("name parts of it in definitions of their own"),

@@ -50,6 +50,27 @@ impl Parser<'_> {
         }
     }
 
+    /// `barred = NAME { "'" } bars`: `log|x|` is `log(|x|)`; what a power behind it would mean is not clear
+    pub(crate) fn barred(&mut self, callee: Name, primes: u32) -> Node {
+        let arg = self.nested(Self::bars);
+        if matches!(
+            self.kind(),
+            TokenKind::Caret | TokenKind::Superscript | TokenKind::Bang
+        ) {
+            self.complain_power_of_bars(&callee, arg.span);
+        }
+        let span = callee.span.join(arg.span);
+        let args = vec![arg.id];
+        self.node(
+            Expr::Call {
+                callee,
+                primes,
+                args,
+            },
+            span,
+        )
+    }
+
     /// `arguments = "(" [ expr { "," expr } ] ")"`
     fn arguments(&mut self, callee: &str) -> Vec<ExprId> {
         let opened = self.open();

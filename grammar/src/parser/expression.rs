@@ -10,6 +10,7 @@ impl Parser<'_> {
         let start = self.position();
         self.bind_locals(start);
         let mut node = self.disjunction();
+        let mut ended = start;
         while self.eat(TokenKind::Where) {
             let mut locals = Vec::new();
             loop {
@@ -21,8 +22,11 @@ impl Parser<'_> {
             let span = node.span.join(self.last_span());
             let body = node.id;
             node = self.node(Expr::Where { body, locals }, span);
+            // The locals of the next `where` do not see those of this one.
+            self.unbind_locals(start, ended..self.position());
+            ended = self.position();
         }
-        self.unbind_locals(start);
+        self.unbind_locals(start, ended..usize::MAX);
         node
     }
 

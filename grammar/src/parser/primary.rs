@@ -33,13 +33,16 @@ impl Parser<'_> {
         self.node(expr, span)
     }
 
-    /// `name = NAME | call`
+    /// `name = NAME | call | barred`
     fn name(&mut self) -> Node {
         let name = self.bump_name();
         let is_adjacent = name.span.end == self.span().start;
         let primes = self.primes();
         let opens = self.at(TokenKind::LParen);
-        match self.scope.role(&name.text) {
+        match self.role_of(&name) {
+            Role::Function if self.at(TokenKind::Bar) && self.form_of(&name).is_none() => {
+                self.barred(name, primes)
+            }
             Role::Function => self.call(name, primes),
             Role::Unknown if self.is_foreign_loop(&name) => self.foreign_loop(&name),
             Role::Unknown if opens && (is_adjacent || primes > 0) => self.call(name, primes),
@@ -79,7 +82,7 @@ impl Parser<'_> {
     }
 
     /// `bars = "|" expr "|"`
-    fn bars(&mut self) -> Node {
+    pub(crate) fn bars(&mut self) -> Node {
         let opening = self.bump();
         self.bars += 1;
         let mut arg = self.expr();

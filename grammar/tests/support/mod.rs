@@ -3,8 +3,9 @@
 #![allow(dead_code)]
 
 pub mod fixture;
+pub mod generate;
 
-use pullback_grammar::ast::{Expr, ExprId, File, Item, Range};
+use pullback_grammar::ast::{Expr, ExprId, File, Item, Name, Range};
 use pullback_grammar::{Parsed, Span, parse};
 
 /// Builtin functions, as far as these tests need them.
@@ -194,6 +195,10 @@ pub fn check_structure(text: &str, parsed: &Parsed) {
             "{inner:?} not in {outer:?} of {text:?}"
         );
     };
+    let named = |outer: Span, name: &Name| {
+        within(outer, name.span);
+        assert_eq!(name.span.text(text), name.text);
+    };
     let file = &parsed.file;
     for (id, expr, span) in file.exprs.iter() {
         inside(span);
@@ -204,13 +209,25 @@ pub fn check_structure(text: &str, parsed: &Parsed) {
         match expr {
             Expr::Name(name)
             | Expr::Call { callee: name, .. }
-            | Expr::Member { field: name, .. } => {
-                within(span, name.span);
-                assert_eq!(name.span.text(text), name.text);
-            }
+            | Expr::Member { field: name, .. } => named(span, name),
             Expr::Error => assert!(parsed.has_errors(), "an unreported error in {text:?}"),
             Expr::Compare { rest, .. } => assert!(!rest.is_empty()),
             Expr::Vector(items) => assert!((2..=4).contains(&items.len())),
+            Expr::Series { ranges, .. } => {
+                assert!(!ranges.is_empty());
+                ranges.iter().for_each(|range| named(span, &range.name));
+            }
+            Expr::Iterate { states, steps, .. } => {
+                assert!(!states.is_empty() && states.len() == steps.len());
+                states.iter().for_each(|state| named(span, &state.0));
+            }
+            Expr::Integral { range, .. } => named(span, &range.name),
+            Expr::Where { locals, .. } => {
+                for local in locals {
+                    named(span, &local.name);
+                    local.field.iter().for_each(|field| named(span, field));
+                }
+            }
             _ => {}
         }
     }

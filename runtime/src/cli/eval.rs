@@ -56,6 +56,8 @@ enum Part {
     Gradient,
     /// The value, then the complex derivative
     Derivative,
+    /// The value, then the gradient, then the second derivatives
+    Hessian,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -79,6 +81,7 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
         Part::Value => What::Value,
         Part::Gradient => What::Gradient,
         Part::Derivative => What::Derivative,
+        Part::Hessian => What::Hessian,
     };
     let index = source.picture(arguments.which, console)?;
     let params = overrides::for_values(&arguments.settings.set, &source.program)?;

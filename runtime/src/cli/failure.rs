@@ -28,6 +28,8 @@ pub(super) enum Failure {
     Device(Error),
     /// What is named could not be read or written.
     Io { what: String, error: io::Error },
+    /// The canonical text of a file would mean something else.
+    Unchanged { name: String },
     /// Input data, whose errors have been told, could not be read.
     Data,
 }
@@ -101,6 +103,13 @@ impl Failure {
             Self::Io { what, error } => {
                 console.error(&format!("{what}: {}", plain(&error)));
                 4
+            }
+            Self::Unchanged { name } => {
+                console.error(&format!(
+                    "{name}: formatting would change the meaning; the file is left as it was"
+                ));
+                console.hint("this is a mistake in pullback; please report the program");
+                1
             }
             Self::Data => 4,
         }

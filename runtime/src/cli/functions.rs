@@ -32,10 +32,11 @@ struct Entry {
     doc: String,
 }
 
-/// The operator table, then what the compiler builds from it, then what is written in the language itself.
+/// The operator table, what the compiler builds from it, the calculus, and what is written in the language itself.
 fn entries() -> Vec<Entry> {
     let also = |names: &'static [&'static str]| names.iter().skip(1).copied().collect();
-    let table = table::rows().iter().map(|row| Entry {
+    let table = table::rows().iter().filter(|row| row.is_written());
+    let table = table.map(|row| Entry {
         usage: row.usage.to_owned(),
         types: types(row),
         also: also(row.names),
@@ -47,13 +48,23 @@ fn entries() -> Vec<Entry> {
         also: also(builtin.names),
         doc: builtin.doc.to_owned(),
     });
-    let library = check::library_functions().iter().map(|function| Entry {
-        usage: function.usage.to_owned(),
-        types: "as defined",
+    let library = check::library_functions().map(|function| Entry {
+        usage: function.usage.clone(),
+        types: if function.is_generic() {
+            "numbers, vectors by components"
+        } else {
+            "as written"
+        },
         also: Vec::new(),
         doc: function.doc.to_owned(),
     });
-    table.chain(built).chain(library).collect()
+    let calculus = check::operators().iter().map(|operator| Entry {
+        usage: operator.usage.to_owned(),
+        types: operator.takes,
+        also: Vec::new(),
+        doc: operator.doc.to_owned(),
+    });
+    table.chain(built).chain(calculus).chain(library).collect()
 }
 
 /// What an operation takes, in words.

@@ -22,8 +22,6 @@ pub(super) struct Source {
     pub(super) stem: String,
     /// The meaning.
     pub(super) program: Program,
-    /// Warnings told so far.
-    pub(super) warnings: usize,
 }
 
 impl Source {
@@ -31,7 +29,7 @@ impl Source {
     ///
     /// A program with errors is a [`Failure::Program`].
     pub(super) fn open(input: &Input, console: &Console) -> Result<Self, Failure> {
-        let (name, stem, bytes) = read(&input.input)?;
+        let Text { name, stem, bytes } = Text::read(&input.input)?;
         let compilation = pullback_compiler::compile_bytes(&bytes);
         let text = String::from_utf8_lossy(&bytes).into_owned();
         console.diagnostics(&compilation.diagnostics, &name, &text);
@@ -42,7 +40,6 @@ impl Source {
                 text,
                 stem,
                 program,
-                warnings: compilation.diagnostics.len(),
             }),
             _ => Err(Failure::Program),
         }
@@ -85,35 +82,61 @@ fn count(diagnostics: &[Diagnostic]) -> usize {
     diagnostics.iter().filter(|d| d.is_error()).count()
 }
 
-/// Name, stem and bytes of the input.
-fn read(input: &OsStr) -> Result<(String, String, Vec<u8>), Failure> {
-    let shown = input.to_string_lossy().into_owned();
-    if input == "-" {
+/// An input as it was read.
+pub(super) struct Text {
+    /// What to call it in messages.
+    pub(super) name: String,
+    /// For the name of an output file: that of the input without folder and ending.
+    pub(super) stem: String,
+    /// What it holds, which may be no text.
+    pub(super) bytes: Vec<u8>,
+}
+
+impl Text {
+    /// Reads a file, the standard input for `-`, or takes the argument itself for a formula.
+    pub(super) fn read(input: &OsStr) -> Result<Self, Failure> {
+        if input == "-" {
+            return Self::standard_input();
+        }
+        let path = Path::new(input);
+        if is_file(path) {
+            return Self::file(path);
+        }
+        Ok(Self {
+            name: "formula".into(),
+            stem: "pullback".into(),
+            bytes: input.as_encoded_bytes().to_vec(),
+        })
+    }
+
+    /// Reads the standard input.
+    pub(super) fn standard_input() -> Result<Self, Failure> {
         let bytes = limited(io::stdin()).map_err(|error| Failure::Io {
             what: "standard input".into(),
             error,
         })?;
-        return Ok(("standard input".into(), "pullback".into(), bytes));
+        Ok(Self {
+            name: "standard input".into(),
+            stem: "pullback".into(),
+            bytes,
+        })
     }
-    let path = Path::new(input);
-    if is_file(path) {
+
+    /// Reads a file.
+    pub(super) fn file(path: &Path) -> Result<Self, Failure> {
+        let name = path.to_string_lossy().into_owned();
         let bytes = File::open(path)
             .and_then(limited)
             .map_err(|error| Failure::Io {
-                what: shown.clone(),
+                what: name.clone(),
                 error,
             })?;
         let stem = path.file_stem().map_or_else(
             || "pullback".into(),
             |stem| stem.to_string_lossy().into_owned(),
         );
-        return Ok((shown, stem, bytes));
+        Ok(Self { name, stem, bytes })
     }
-    Ok((
-        "formula".into(),
-        "pullback".into(),
-        input.as_encoded_bytes().to_vec(),
-    ))
 }
 
 /// Whether an argument names a file: it exists, or says that it should. A folder counts if it is written like one,

@@ -56,28 +56,47 @@ pub fn declared(subject: &Subject, machine: &Machine) -> Result<Declared, String
         derivative: bound(row[first + 1]),
         reason,
     };
-    let ordinary = if subject.domain == Domain::Real {
-        ORDINARY.0
-    } else {
-        ORDINARY.1
-    };
     for bound in [Some(declared.value), declared.derivative]
         .into_iter()
         .flatten()
     {
-        let plain = bound.ulps <= ordinary && bound.metric == Metric::Component;
-        if !plain && reason.is_empty() {
-            return Err(format!("{bound:?} needs a reason"));
-        }
-        let cap = if first == 2 { CAP.1 } else { CAP.0 };
-        if bound.ulps.is_nan() || bound.ulps > cap {
-            return Err(format!("{bound:?} is above the cap of {cap}"));
-        }
+        permitted(bound, subject.domain, machine, reason)?;
     }
     Ok(declared)
 }
 
-fn bound(cell: &str) -> Option<Bound> {
+/// Whether a bound may be declared at all.
+///
+/// # Errors
+/// It is above the cap, or needs a reason; in words.
+pub(super) fn permitted(
+    bound: Bound,
+    domain: Domain,
+    machine: &Machine,
+    reason: &str,
+) -> Result<(), String> {
+    let ordinary = if domain == Domain::Real {
+        ORDINARY.0
+    } else {
+        ORDINARY.1
+    };
+    let plain = bound.ulps <= ordinary && bound.metric == Metric::Component;
+    if !plain && reason.is_empty() {
+        return Err(format!("{bound:?} needs a reason"));
+    }
+    let cap = if matches!(machine, Machine::Reference) {
+        CAP.1
+    } else {
+        CAP.0
+    };
+    if bound.ulps.is_nan() || bound.ulps > cap {
+        return Err(format!("{bound:?} is above the cap of {cap}"));
+    }
+    Ok(())
+}
+
+/// A bound as tables write it: a number, and the metric where it is not by component.
+pub(super) fn bound(cell: &str) -> Option<Bound> {
     let (number, word) = cell.split_once(' ').unwrap_or((cell, ""));
     let metric = Metric::ALL.into_iter().find(|m| m.word() == word)?;
     Some(Bound {

@@ -87,7 +87,11 @@ const GALLERY: [(&str, &str, &str); 36] = gallery![
     "z-to-z",
 ];
 
-const LIBRARY: &str = include_str!("../../data/functions/library.txt");
+const LIBRARY: &str = concat!(
+    include_str!("../../data/functions/library.txt"),
+    include_str!("../../data/functions/shapes.txt"),
+    include_str!("../../data/functions/noise.txt"),
+);
 
 /// The formulas of the gallery.
 #[must_use]

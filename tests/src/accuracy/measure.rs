@@ -50,7 +50,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    fn add(&mut self, error: f64, describe: impl FnOnce() -> String) {
+    pub(super) fn add(&mut self, error: f64, describe: impl FnOnce() -> String) {
         if error.is_infinite() {
             self.wrong.push(describe());
             return;
@@ -187,7 +187,12 @@ fn judge(
     errors
 }
 
-fn case_error(format: Format, got: &[f64], expected: &[Expected], metric: Metric) -> f64 {
+pub(super) fn case_error(
+    format: Format,
+    got: &[f64],
+    expected: &[Expected],
+    metric: Metric,
+) -> f64 {
     let size = match metric {
         Metric::Component => 0.0,
         Metric::Norm => expected.iter().map(size).fold(0.0, f64::max),
@@ -231,7 +236,7 @@ fn flushed<'s>(subject: &'s Subject, case: &Case) -> Option<&'s Case> {
         .find(|c| same(&c.args, &args) && c.params == case.params)
 }
 
-fn words(expected: &[Expected]) -> String {
+pub(super) fn words(expected: &[Expected]) -> String {
     let each = |e: &Expected| match e {
         Expected::Unstated => "-".to_owned(),
         Expected::Number { value, .. } => format!("{value:?}"),

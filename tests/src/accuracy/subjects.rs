@@ -56,6 +56,9 @@ fn forms(row: &'static Row, domain: Domain) -> Vec<(&'static str, String, usize)
         ("z", "complex(a, b)")
     };
     let on_reals = domain == Domain::Real;
+    if !row.is_written() {
+        return Vec::new();
+    }
     match (row.prim, row.names, arity) {
         (_, &[name, ..], 1) => vec![(name, format!("{name}({a})"), 1)],
         (_, &[name, ..], 2) => vec![(name, format!("{name}({a}, {b})"), 2)],

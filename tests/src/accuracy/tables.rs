@@ -112,6 +112,23 @@ fn value(cell: &str) -> Expected {
     }
 }
 
+const SECOND: &str = include_str!("../../data/functions/second.tsv");
+
+/// The rows of the table of second derivatives of a function, asked about in some way: arguments and values.
+pub(super) fn second(word: &str, domain: &str) -> Vec<(Vec<f64>, Vec<Expected>)> {
+    let rows = SECOND.lines().filter_map(|line| {
+        let cells: Vec<&str> = line.split('\t').collect();
+        let &[name, of, args, values] = cells.as_slice() else {
+            return None;
+        };
+        (name == word && of == domain).then(|| {
+            let args = args.split(' ').map(number).collect();
+            (args, values.split(' ').map(slope).collect())
+        })
+    });
+    rows.collect()
+}
+
 /// A derivative: the sign of one that vanishes is not stated, nor is a NaN of the oracle tables.
 fn slope(cell: &str) -> Expected {
     match value(cell) {

@@ -1,23 +1,31 @@
 //! Looks for texts that the parser or the compiler does not answer as it must.
 //!
-//!     cargo run --release -p pullback-tests --no-default-features --bin fuzz -- parse|compile
-//!         [--seconds 600] [--seed 1] [--last FILE]
+//!     cargo run --release -p pullback-tests --no-default-features --bin fuzz -- parse|compile|fmt
+//!         [--seconds 600] [--seed 1] [--last FILE] [--text FILE]
 //!
 //! Mutates every program that we have. What must hold is in `pullback_tests::holds`: no panic, places inside of the
-//! text, an error where there is no program, printing and formatting that change nothing, an answer within
-//! `LIMIT`. The first text that breaks this is printed, and the exit code is 1. `--last` keeps each text in a file
-//! before it is tried, for a stack overflow that ends the process.
+//! text, an error where there is no program, printing and formatting that change nothing (`fmt`: nor the values), an
+//! answer within `LIMIT` and `MEMORY`. The first text that breaks this is printed, and the exit code is 1. At the end
+//! the text that took the most memory is printed. `--last` keeps each text in a file before it is tried, for a stack
+//! overflow that ends the process; `--text` tries the text of a file alone.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
+use peak_alloc::PeakAlloc;
 use pullback_tests::corpus::all_programs;
-use pullback_tests::holds;
 use pullback_tests::mutate::{Random, mutated};
+use pullback_tests::{formatting, holds};
+
+#[global_allocator]
+static ALLOCATOR: PeakAlloc = PeakAlloc;
 
 /// Longest time for one text.
 const LIMIT: Duration = Duration::from_secs(5);
+
+/// Most memory for one text, in bytes beyond what was taken before. A graph of the greatest size takes about 670 MiB.
+const MEMORY: usize = 1 << 30;
 
 /// Smallest stack that threads have by default.
 const STACK: usize = 2 << 20;
@@ -26,6 +34,7 @@ const STACK: usize = 2 << 20;
 enum Target {
     Parse,
     Compile,
+    Format,
 }
 
 #[derive(Clone)]
@@ -34,6 +43,7 @@ struct Options {
     seconds: u64,
     seed: u64,
     last: Option<String>,
+    text: Option<String>,
 }
 
 fn options() -> Option<Options> {
@@ -41,6 +51,7 @@ fn options() -> Option<Options> {
     let target = match arguments.next()?.as_str() {
         "parse" => Target::Parse,
         "compile" => Target::Compile,
+        "fmt" => Target::Format,
         _ => return None,
     };
     let mut out = Options {
@@ -48,6 +59,7 @@ fn options() -> Option<Options> {
         seconds: 600,
         seed: 1,
         last: None,
+        text: None,
     };
     while let Some(name) = arguments.next() {
         let value = arguments.next()?;
@@ -55,73 +67,126 @@ fn options() -> Option<Options> {
             "--seconds" => out.seconds = value.parse().ok()?,
             "--seed" => out.seed = value.parse().ok()?,
             "--last" => out.last = Some(value),
+            "--text" => out.text = Some(value),
             _ => return None,
         }
     }
     Some(out)
 }
 
-/// What is wrong with the answer to a text, if anything.
-fn try_text(target: Target, bytes: &[u8], modules: bool) -> Option<String> {
+/// What is wrong with the answer to a text, if anything; and the bytes that it took at its greatest.
+fn try_text(target: Target, bytes: &[u8], modules: bool) -> (Option<String>, usize) {
     let start = Instant::now();
+    let before = ALLOCATOR.current_usage();
+    ALLOCATOR.reset_peak_usage();
     let result = catch_unwind(AssertUnwindSafe(|| match target {
         Target::Parse => holds::parsing(bytes),
         Target::Compile => holds::compiling(bytes, modules),
+        Target::Format => match std::str::from_utf8(bytes) {
+            Ok(text) => formatting::tree(text).and_then(|()| formatting::evaluation(text)),
+            Err(_) => Ok(()),
+        },
     }));
+    let memory = ALLOCATOR.peak_usage().saturating_sub(before);
     let took = start.elapsed();
-    match result {
+    let problem = match result {
         Err(_) => Some("a panic".into()),
         Ok(Err(problem)) => Some(problem),
         Ok(Ok(())) if took > LIMIT => Some(format!("takes {took:?}")),
+        Ok(Ok(())) if memory > MEMORY => Some(format!("takes {} MiB", memory >> 20)),
         Ok(Ok(())) => None,
+    };
+    (problem, memory)
+}
+
+/// What came of it.
+#[derive(Default)]
+struct Outcome {
+    /// Number of texts tried.
+    count: u64,
+    /// The first text that failed, and why.
+    failure: Option<(Vec<u8>, String)>,
+    /// The text that took the most memory, and the bytes that it took.
+    greatest: (Vec<u8>, usize),
+}
+
+/// Tries the text of a file.
+fn run_alone(options: &Options, file: &str) -> Outcome {
+    let bytes = std::fs::read(file).unwrap_or_default();
+    let (problem, memory) = try_text(options.target, &bytes, true);
+    Outcome {
+        count: 1,
+        failure: problem.map(|problem| (bytes.clone(), problem)),
+        greatest: (bytes, memory),
     }
 }
 
-/// Runs until the time is over; the number of texts tried, and the first that failed.
-fn run(options: &Options) -> (u64, Option<(Vec<u8>, String)>) {
+/// Runs until the time is over, or to the first failure.
+fn run(options: &Options) -> Outcome {
+    if let Some(file) = &options.text {
+        return run_alone(options, file);
+    }
     let corpus = all_programs();
     let mut random = Random::new(options.seed);
     let start = Instant::now();
-    let mut count = 0;
+    let mut outcome = Outcome::default();
     let mut minute = 1;
     while start.elapsed().as_secs() < options.seconds {
         let bytes = mutated(&corpus, &mut random);
         if let Some(file) = &options.last {
             let _ = std::fs::write(file, &bytes);
         }
-        if let Some(problem) = try_text(options.target, &bytes, count % 50 == 0) {
-            return (count, Some((bytes, problem)));
+        let (problem, memory) = try_text(options.target, &bytes, outcome.count % 50 == 0);
+        if memory > outcome.greatest.1 {
+            outcome.greatest = (bytes.clone(), memory);
         }
-        count += 1;
+        if let Some(problem) = problem {
+            outcome.failure = Some((bytes, problem));
+            break;
+        }
+        outcome.count += 1;
         if start.elapsed().as_secs() >= 60 * minute {
-            println!("{minute} min: {count} texts");
+            println!("{minute} min: {} texts", outcome.count);
             minute += 1;
         }
     }
-    (count, None)
+    outcome
+}
+
+/// Tells what came of it.
+fn report(outcome: &Outcome) -> ExitCode {
+    println!("{} texts", outcome.count);
+    let (bytes, memory) = &outcome.greatest;
+    println!(
+        "worst memory: {:.1} MiB by input\n---\n{}\n---",
+        *memory as f64 / f64::from(1 << 20),
+        String::from_utf8_lossy(bytes)
+    );
+    let Some((bytes, problem)) = &outcome.failure else {
+        return ExitCode::SUCCESS;
+    };
+    println!(
+        "failed: {problem}\n---\n{}\n---\n{bytes:?}",
+        String::from_utf8_lossy(bytes)
+    );
+    ExitCode::FAILURE
 }
 
 fn main() -> ExitCode {
     let Some(options) = options() else {
-        eprintln!("usage: fuzz parse|compile [--seconds 600] [--seed 1] [--last FILE]");
+        eprintln!(
+            "usage: fuzz parse|compile|fmt [--seconds 600] [--seed 1] [--last FILE] [--text FILE]"
+        );
         return ExitCode::from(2);
     };
     let worker = std::thread::Builder::new()
         .stack_size(STACK)
         .spawn(move || run(&options));
-    let Some((count, found)) = worker.ok().and_then(|worker| worker.join().ok()) else {
-        eprintln!("the fuzzer itself failed");
-        return ExitCode::from(2);
-    };
-    println!("{count} texts");
-    match found {
-        None => ExitCode::SUCCESS,
-        Some((bytes, problem)) => {
-            println!(
-                "failed: {problem}\n---\n{}\n---\n{bytes:?}",
-                String::from_utf8_lossy(&bytes)
-            );
-            ExitCode::FAILURE
+    match worker.map(std::thread::JoinHandle::join) {
+        Ok(Ok(outcome)) => report(&outcome),
+        _ => {
+            eprintln!("the fuzzer itself failed");
+            ExitCode::from(2)
         }
     }
 }

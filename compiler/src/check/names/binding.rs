@@ -67,6 +67,11 @@ impl<'a> Walk<'a, '_> {
         self.scope.truncate(depth);
     }
 
+    /// An integral: its ends do not see the variable.
+    pub(super) fn integral(&mut self, body: ExprId, range: &'a Range) {
+        self.series(std::slice::from_ref(range), body);
+    }
+
     /// States of an iteration: their starts do not see them.
     pub(super) fn iteration(
         &mut self,

@@ -1,0 +1,31 @@
+// Hashing of lattice points. Integers only, so that every adapter has the bits of the reference.
+
+/// A permutation of 32-bit words: one step and the output function of PCG-RXS-M-XS-32 (O'Neill, PCG: A Family of Simple
+/// Fast Space-Efficient Statistically Good Algorithms for Random Number Generation, 2014).
+fn hash_word(v: u32) -> u32 {
+    let state = v * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+/// The word of a coordinate: ⌊x⌋ in two's complement below 2^31, the bits of x from there on.
+fn hash_coordinate(x: f32) -> u32 {
+    let bits = bitcast<u32>(x);
+    let large = (bits & 0x7fffffffu) >= 0x4f000000u;
+    let whole = bitcast<u32>(i32(select(floor(x), 0.0, large)));
+    // a negative subnormal may count as 0 for floor
+    let below = select(whole, 0xffffffffu, bits > 0x80000000u && bits < 0x80800000u);
+    return select(below, bits, large);
+}
+
+/// [0, 1) from a lattice point, a multiple of 2^-24; coordinates are rounded down. NaN where one is infinite or NaN.
+/// The words are nested, the last innermost, so that neighbours along x share most of the work (Jarzynski and Olano,
+/// Hash Functions for GPU Rendering, Journal of Computer Graphics Techniques 9 (3), 2020).
+/// Error: none.
+fn real_hash(x: f32, y: f32, z: f32, w: f32) -> f32 {
+    let inner = hash_word(hash_coordinate(z) + hash_word(hash_coordinate(w)));
+    let word = hash_word(hash_coordinate(x) + hash_word(hash_coordinate(y) + inner));
+    let value = f32(word >> 8u) * 5.9604645e-8;
+    let finite = is_finite(x) && is_finite(y) && is_finite(z) && is_finite(w);
+    return select(make_nan(x), value, finite);
+}

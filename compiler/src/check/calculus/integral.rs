@@ -1,0 +1,59 @@
+//! Integrals: their types.
+
+use pullback_grammar::ast::{ExprId, Range};
+use pullback_grammar::{Diagnostic, Span};
+
+use crate::check::builtins::advice;
+use crate::check::{Builder, Value};
+use crate::ir::Ty;
+use crate::types::Type;
+
+impl<'a> Builder<'a> {
+    /// Checks the types of an integral, which is not there yet.
+    pub(in crate::check) fn integral(
+        &mut self,
+        body: ExprId,
+        range: &'a Range,
+        span: Span,
+    ) -> Value {
+        let mut fits = true;
+        for (end, which) in [(range.lower, "lower"), (range.upper, "upper")] {
+            let value = self.expr(end);
+            match value.ty(&self.graph) {
+                Some(Type::Real) => {}
+                Some(found) => {
+                    fits = false;
+                    let message = format!("the {which} end of an integral is real, found {found}");
+                    let problem = Diagnostic::error("type-mismatch", self.span(end), message)
+                        .with_label(format!("this is {found}"));
+                    self.report(problem.with_hint(advice(found, false)));
+                }
+                None => fits = false,
+            }
+        }
+        let variable = Value::Scalar(self.graph.new_variable(Ty::Real));
+        let depth = self.scope.len();
+        self.scope.push(&range.name.text, variable);
+        let value = self.expr(body);
+        self.scope.truncate(depth);
+        match value.ty(&self.graph) {
+            Some(Type::Bool) => {
+                let problem = Diagnostic::error(
+                    "type-mismatch",
+                    self.span(body),
+                    "a condition has no integral",
+                );
+                self.report(problem.with_hint("write if … then 1 else 0"))
+            }
+            Some(_) if fits => {
+                let message = "integrals are not available in this version";
+                self.report(
+                    Diagnostic::error("not-yet", span, message)
+                        .with_label("reserved for a later version")
+                        .with_hint("write the integral in closed form"),
+                )
+            }
+            _ => Value::Error,
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! Source text to canonical text, with its comments.
+//!
+//! Tokens stay as they are written (`x²` or `x^2`, `≤` or `<=`, brackets for the reader): what is set is the blanks
+//! between them and where lines end.
+
+mod blanks;
+mod lines;
+mod pieces;
+
+use crate::Span;
+use crate::layout::layout;
+use crate::parse::parse;
+use crate::token::{TokenKind, comments, tokenize};
+use pieces::{Roles, Source};
+
+/// The canonical text of a file with its comments and single blank lines; nothing where the file has errors.
+///
+/// Each statement begins a line. One that is longer than 100 columns is broken: each local of a `where`, each term of
+/// a sum, each item of a list begins a line. A line break that the author has set before `where`, or behind the `{` of
+/// choices or settings, stays. A statement with a comment where no line can end is kept as it was written.
+///
+/// ```
+/// let text = "f( x,y )=2x^2+y ;show levels(f){height=4,}";
+/// let formatted = pullback_grammar::format(text, &|_| false);
+/// assert_eq!(formatted.as_deref(), Some("f(x, y) = 2x^2 + y\nshow levels(f) { height = 4 }\n"));
+/// ```
+#[must_use]
+pub fn format(text: &str, is_function: &dyn Fn(&str) -> bool) -> Option<String> {
+    let parsed = parse(text, is_function);
+    if parsed.has_errors() {
+        return None;
+    }
+    let (tokens, _) = tokenize(text);
+    let source = Source {
+        text,
+        roles: Roles::of(&parsed.file.exprs),
+    };
+    let comments = comments(text);
+    let mut rest = comments.as_slice();
+    let mut page = Page {
+        text,
+        out: String::new(),
+        read: 0,
+        statement: None,
+    };
+    for statement in &layout(&tokens).statements {
+        let tokens = tokens.get(statement.start..statement.end);
+        let tokens = tokens.unwrap_or_default();
+        let (Some(first), Some(last)) = (tokens.first(), tokens.last()) else {
+            continue;
+        };
+        let span = first.span.join(last.span);
+        let before = rest.partition_point(|comment| comment.start < span.start);
+        let (outside, others) = rest.split_at(before);
+        outside.iter().for_each(|comment| page.comment(*comment));
+        let (inside, others) =
+            others.split_at(others.partition_point(|comment| comment.start < span.end));
+        rest = others;
+        let pieces = source.pieces(tokens, statement.kind, inside);
+        let lines = pieces.and_then(|pieces| lines::lines(&pieces));
+        let has_sign = matches!(first.kind, TokenKind::Minus | TokenKind::Plus);
+        page.statement(
+            &lines.unwrap_or_else(|| tidy(span.text(text))),
+            span,
+            has_sign,
+        );
+    }
+    rest.iter().for_each(|comment| page.comment(*comment));
+    if !page.out.is_empty() {
+        page.out.push('\n');
+    }
+    Some(page.out)
+}
+
+/// The lines of a text without blanks at their ends.
+fn tidy(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
+    lines.join("\n")
+}
+
+/// What has been written, and up to where the text has been read.
+struct Page<'a> {
+    text: &'a str,
+    out: String,
+    read: usize,
+    /// End of the last statement in `out`.
+    statement: Option<usize>,
+}
+
+impl Page<'_> {
+    /// Writes a statement on lines of its own.
+    fn statement(&mut self, lines: &str, span: Span, has_sign: bool) {
+        if has_sign && let Some(end) = self.statement {
+            // Else the line would go on with the statement before.
+            self.out.insert(end, ';');
+        }
+        self.begin_line(span);
+        self.out.push_str(lines);
+        self.read = span.end as usize;
+        self.statement = Some(self.out.len());
+    }
+
+    /// Writes a comment: behind a statement that it shares the line with, else on a line of its own.
+    fn comment(&mut self, comment: Span) {
+        if self.breaks_before(comment) == 0 && !self.out.is_empty() {
+            self.out.push_str("  ");
+        } else {
+            self.begin_line(comment);
+        }
+        self.out.push_str(&tidy(comment.text(self.text)));
+        self.read = comment.end as usize;
+    }
+
+    /// Ends the line before, with a blank line where the text has one.
+    fn begin_line(&mut self, next: Span) {
+        if !self.out.is_empty() {
+            let blank = self.breaks_before(next) > 1;
+            self.out.push_str(if blank { "\n\n" } else { "\n" });
+        }
+    }
+
+    /// Number of line breaks between what has been read and `next`.
+    fn breaks_before(&self, next: Span) -> usize {
+        let gap = self.text.get(self.read..next.start as usize).unwrap_or("");
+        gap.replace("\r\n", "\n").matches(['\n', '\r']).count()
+    }
+}
