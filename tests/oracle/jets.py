@@ -8,11 +8,13 @@ gives the derivatives by exact rules, and the error scale.
 
 The mode of a jet says what its derivatives are by: "real" (real variables), "holomorphic" (z), "pair" (z and z̄).
 """
+import heapq
 import struct
 
 import mpmath as mp
 
 SINGLE, DOUBLE = mp.mpf(2) ** -24, mp.mpf(2) ** -53
+OPEN = 8  # a comparison is open within this many times its error bound
 MAX_SINGLE = mp.mpf(2) ** 128 * (1 - SINGLE / 2)
 MAX_DOUBLE = mp.mpf(2) ** 1024 * (1 - DOUBLE / 2)
 
@@ -36,9 +38,15 @@ class Run:
         cls.largest, cls.tie, cls.coarse, cls.decisions, cls.flip = mp.mpf(0), False, mp.mpf(0), [], flip
 
     @classmethod
-    def limit(cls, relative):
-        """A relative error, in units of u, that has to stay below 1/16."""
-        cls.coarse = max(cls.coarse, 16 * relative)
+    def limit(cls, relative, numbers):
+        """A relative error, in units of u, that has to stay below 1/16; it depends on the errors of these numbers."""
+        found = 16 * relative()
+        for unit in (SINGLE, DOUBLE):
+            if found * unit > 1 >= cls.coarse * unit:
+                for n in numbers:
+                    n.tighten()
+                found = 16 * relative()
+        cls.coarse = max(cls.coarse, found)
 
 
 def exact_in_single(c):
@@ -46,8 +54,18 @@ def exact_in_single(c):
 
 
 class Num:
-    def __init__(self, v, e=0):
-        self.v, self.e = mp.mpmathify(v), mp.mpf(e)
+    """A result v with the results that it was computed from, the partial derivatives by them, and its own rounding.
+
+    e is a bound of its error that forgets where errors come from; `tighten` replaces it by the bound that follows every
+    rounding to this result, which lets those of one rounding cancel that came along several ways.
+    """
+
+    made = 0
+
+    def __init__(self, v, local=0, parents=()):
+        Num.made += 1
+        self.k, self.v, self.local, self.parents = Num.made, mp.mpmathify(v), mp.mpf(local), parents
+        self.e = self.local + sum(abs(p) * n.e for n, p, _ in parents)
         if mp.isfinite(self.v):
             Run.largest = max(Run.largest, abs(self.v))
 
@@ -57,29 +75,58 @@ class Num:
         c = mp.mpmathify(c)
         return Num(c, 0 if exact_in_single(c) else abs(c))
 
+    def tighten(self):
+        # (a, b) of a result: what an error δ of it makes of this number is a δ + b δ̄
+        with mp.workdps(15):
+            reached, weights, bound = [(-self.k, self)], {self.k: (mp.mpf(1), mp.mpf(0))}, mp.mpf(0)
+            while reached:
+                _, n = heapq.heappop(reached)
+                a, b = weights.pop(n.k)
+                bound += (abs(a) + abs(b)) * n.local
+                for parent, p, kind in n.parents:
+                    if not parent.e:
+                        continue
+                    c, d = KINDS[kind](a, b, +p)
+                    known = weights.get(parent.k)
+                    if known is None:
+                        heapq.heappush(reached, (-parent.k, parent))
+                        known = (0, 0)
+                    weights[parent.k] = (known[0] + c, known[1] + d)
+        self.e = min(self.e, bound)
+        return self.e
+
     def add(self, o):
         v = self.v + o.v
-        return Num(v, self.e + o.e + abs(v))
+        return Num(v, abs(v), ((self, mp.mpf(1), "linear"), (o, mp.mpf(1), "linear")))
 
     def mul(self, o):
         v = self.v * o.v
-        first = abs(self.v) * o.e + abs(o.v) * self.e + abs(v)
-        if self.e and o.e and first:
-            Run.limit(self.e * o.e / first / 4)
-        return Num(v, first)
+        result = Num(v, abs(v), ((self, o.v, "linear"), (o, self.v, "linear")))
+        if self.e and o.e:
+            # the product of both errors, against what is of first order
+            Run.limit(lambda: self.e * o.e / result.e / 4 if result.e else mp.mpf(0), (self, o))
+        return result
 
     def div(self, o):
         v = self.v / o.v
         if o.e:
-            Run.limit(o.e / abs(o.v))
-        return Num(v, (self.e + abs(v) * o.e) / abs(o.v) + abs(v))
+            Run.limit(lambda: o.e / abs(o.v), (o,))
+        return Num(v, abs(v), ((self, 1 / o.v, "linear"), (o, -v / o.v, "linear")))
 
     def neg(self):
-        return Num(-self.v, self.e)
+        return Num(-self.v, 0, ((self, mp.mpf(-1), "linear"),))
 
-    def map(self, fn):
-        """An operation that does not round and does not enlarge: conjugate, parts."""
-        return Num(fn(self.v), self.e)
+    def part(self, fn, kind):
+        """An operation that does not round: conjugate, real or imaginary part."""
+        return Num(fn(self.v), 0, ((self, mp.mpf(1), kind),))
+
+
+KINDS = {
+    "linear": lambda a, b, p: (a * p, b * mp.conj(p)),
+    "conj": lambda a, b, p: (b, a),
+    "re": lambda a, b, p: ((a + b) / 2, (a + b) / 2),
+    "im": lambda a, b, p: ((a + b) / mp.mpc(0, 2), -(a + b) / mp.mpc(0, 2)),
+}
 
 
 def plus(p, q):
@@ -173,11 +220,13 @@ def below(x, y, branch=True):
         return x < y
     jet = x if isinstance(x, Jet) else y
     a, b = (x if isinstance(x, Jet) else jet.constant(x)).a, (y if isinstance(y, Jet) else jet.constant(y)).a
-    gap, error = abs(a.v - b.v), a.e + b.e
+    gap = abs(a.v - b.v)
     Run.tie = Run.tie or (branch and gap == 0)
     decided = a.v < b.v
-    if error:
-        Run.decisions.append(gap / error)
+    if a.e + b.e:
+        if gap < OPEN * SINGLE * (a.e + b.e):
+            a.tighten(), b.tighten()
+        Run.decisions.append(gap / (a.e + b.e))
         if Run.flip == len(Run.decisions) - 1:
             return not decided
     return decided
@@ -187,8 +236,8 @@ def below(x, y, branch=True):
 # Functions of one number, with three derivatives: the last is for the error of the second.
 def function(f0, f1, f2, f3):
     def rounded(fn, slope, a):
-        v, s = fn(a.v), abs(slope(a.v))
-        return Num(v, s * a.e + abs(v))
+        v = fn(a.v)
+        return Num(v, abs(v), ((a, slope(a.v), "linear"),) if a.e else ())
 
     def call(x):
         if not isinstance(x, Jet):
@@ -196,10 +245,14 @@ def function(f0, f1, f2, f3):
         a = x.a
         n0 = rounded(f0, f1, a)
         if a.e:
-            bend, slope = abs(f2(a.v)) * a.e, abs(f1(a.v))
-            # the second-order part of the error, against the first-order part and the rounding
-            if bend:
-                Run.limit(min(bend / slope if slope else mp.inf, bend * a.e / n0.e) / 4)
+            bend, slope = abs(f2(a.v)), abs(f1(a.v))
+            # the second-order part of the error, against the first-order part and against the whole
+
+            def second_order():
+                b = bend * a.e
+                return min(b / slope if slope else mp.inf, b * a.e / n0.e) / 4 if b else mp.mpf(0)
+
+            Run.limit(second_order, (a,))
         second = rounded(f2, f3, a) if Jet.second and any(p is not None for p in x.d) else None
         return x.chain(n0, rounded(f1, f2, a), second)
 
@@ -292,26 +345,30 @@ def mix(a, b, t):
 def conj(z):
     if not isinstance(z, Jet):
         return mp.conj(z)
-    flip = lambda p: p and p.map(mp.conj)
+    flip = lambda p: p and p.part(mp.conj, "conj")
     if z.mode == "pair":
-        return z.like(z.a.map(mp.conj), [flip(z.d[1]), flip(z.d[0])], z.h)
+        return z.like(flip(z.a), [flip(z.d[1]), flip(z.d[0])], z.h)
     assert z.mode == "real", "conj is not holomorphic"
-    return z.like(z.a.map(mp.conj), list(map(flip, z.d)), list(map(flip, z.h)))
+    return z.like(flip(z.a), list(map(flip, z.d)), list(map(flip, z.h)))
 
 
-def part(z, sign):
-    half = (z + conj(z)) / 2 if sign > 0 else (z - conj(z)) / mp.mpc(0, 2)
-    if isinstance(z, Jet):
-        half.a = z.a.map(mp.re if sign > 0 else mp.im)
-    return half if isinstance(z, Jet) else mp.re(half)
+def part(z, kind):
+    take = mp.re if kind == "re" else mp.im
+    if not isinstance(z, Jet):
+        return take(z)
+    own = lambda p: p and p.part(take, kind)
+    if z.mode == "real":
+        return z.like(own(z.a), list(map(own, z.d)), list(map(own, z.h)))
+    pair = (z + conj(z)) / 2 if kind == "re" else (z - conj(z)) / mp.mpc(0, 2)
+    return z.like(own(z.a), pair.d, z.h)
 
 
 def re(z):
-    return part(z, 1)
+    return part(z, "re")
 
 
 def im(z):
-    return part(z, -1)
+    return part(z, "im")
 
 
 def hypot(*xs):
@@ -321,8 +378,7 @@ def hypot(*xs):
     jet = next(x for x in xs if isinstance(x, Jet))
     xs = [jet.lift(x) for x in xs]
     r = mp.sqrt(mp.fsum(x.a.v**2 for x in xs))
-    e = mp.fsum(abs(x.a.v) * x.a.e for x in xs) / r + r if r else mp.fsum(x.a.e for x in xs)
-    length = Num(r, e)
+    length = Num(r, r, tuple((x.a, x.a.v / r if r else mp.mpf(1), "linear") for x in xs))
     if not r:
         return jet.constant(length)
     # as it is computed: r' = Σ x x' / r, r'' = (Σ (x'² + x x'') - r'²) / r
@@ -345,7 +401,8 @@ def modulus(z):
     if not isinstance(z, Jet):
         return abs(z)
     v = abs(z.a.v)
-    size = Num(v, z.a.e + v)
+    # |z + δ| moves by Re(z̄ δ)/|z|
+    size = Num(v, v, ((z.a, mp.conj(z.a.v) / v, "linear"),) if v else ((z.a, mp.mpf(1), "linear"),))
     if z.mode == "holomorphic":
         return z.constant(size)
     if z.mode == "real":
@@ -354,7 +411,7 @@ def modulus(z):
     if not v:
         return z.constant(size)
     back, unit = conj(z), z.a.div(size)
-    half = lambda p, q: times(Num(mp.mpf(1) / 2), plus(times(p, unit.map(mp.conj)), times(q, unit)))
+    half = lambda p, q: times(Num(mp.mpf(1) / 2), plus(times(p, unit.part(mp.conj, "conj")), times(q, unit)))
     d = [half(p, q) for p, q in zip(z.d, back.d)]
     return z.like(size, d, z.h)
 
@@ -366,7 +423,7 @@ def atan2(y, x):
     x, y = jet.lift(x), jet.lift(y)
     r = x.a.mul(x.a).add(y.a.mul(y.a))
     v = mp.atan2(y.a.v, x.a.v)
-    e = (abs(x.a.v) * y.a.e + abs(y.a.v) * x.a.e) / r.v + abs(v)
+    angle = Num(v, abs(v), ((y.a, x.a.v / r.v, "linear"), (x.a, -y.a.v / r.v, "linear")))
     px, py = y.a.neg().div(r), x.a.div(r)
     d = [plus(times(p, px), times(q, py)) for p, q in zip(x.d, y.d)]
     # θ'' = (x y'' - y x'')/r² - 2 θ' (x x' + y y')/r²
@@ -375,7 +432,7 @@ def atan2(y, x):
         bend = plus(times(x.h[k], px), times(y.h[k], py))
         stretch = over(plus(times(x.a, x.d[k]), times(y.a, y.d[k])), r)
         h.append(plus(bend, neg(times(Num(2), times(first, stretch)))))
-    return jet.like(Num(v, e), d, h)
+    return jet.like(angle, d, h)
 
 
 def floor(x):

@@ -15,7 +15,7 @@ import sys
 
 import mpmath as mp
 
-from jets import DOUBLE, MAX_DOUBLE, MAX_SINGLE, SINGLE, Jet, Num, Run, f32
+from jets import DOUBLE, MAX_DOUBLE, MAX_SINGLE, OPEN, SINGLE, Jet, Num, Run, f32
 from published import FORMULAS
 
 mp.mp.dps = 150
@@ -23,8 +23,6 @@ STEP = mp.mpf(10) ** -40
 AGREE = mp.mpf(10) ** -30
 NOTHING = mp.mpf(10) ** -60  # what differences leave of a derivative that vanishes
 DIGITS = 20
-# A comparison is open within this many units of its error bound.
-OPEN = 8
 HERE = os.path.dirname(os.path.abspath(__file__))
 FOLDER = os.path.join(HERE, "..", "data", "literature")
 
@@ -126,7 +124,7 @@ def line(formula, point, jet, columns, notes):
     out = [repr(c) for c in point]
     for v in columns:
         out += cells(v, formula.complex)
-    out += [short(n.e) for n in numbers(jet)]
+    out += [short(n.tighten()) for n in numbers(jet)]
     return "\t".join(out + [",".join(notes) or "-"])
 
 

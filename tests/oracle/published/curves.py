@@ -25,7 +25,7 @@ def cassini_ovals(x, y):
     return mp.sqrt((x**2 + y**2 + 1) ** 2 - 4 * x**2) - mp.mpf("1.21")
 
 
-@curve(special=[(0, 0), (1, 0)], second=True)
+@curve(special=[(0, 0), (1, 0)])
 def trifolium(x, y):
     return (x**2 + y**2) ** 2 - x**3 + 3 * x * y**2
 

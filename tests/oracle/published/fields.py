@@ -360,3 +360,16 @@ def kifs_volumetric(x, y, z):
     k = Q("0.3")
     rays = smooth(smooth(hypot(v, w) - Q("0.5"), hypot(u, w) - Q("0.25"), k), hypot(u, v) - Q("0.125"), k)
     return smooth(hypot(x, y, z) - Q("0.44"), rays / Q("2.6"), k) * Q("0.3")
+
+
+@space(special=[(1, 0.25, 0), (0.5, 0.5, 0.375)])
+def sdf_cheap_bend(x, y, z):
+    x, y = rotated(x, y, Q("-0.75") * x)
+    return box_distance((x, y, z), (Q(1), Q("0.25"), Q("0.375")))
+
+
+@space(special=[(0.75, 0, 0.5), (-1.25, 0.25, 0)])
+def sdf_elongated_torus(x, y, z):
+    stretched = lambda c: c - clamp(c, Q("-0.25"), Q("0.25"))
+    x, y, z = absolute(x) - Q("0.75"), stretched(y), stretched(z)
+    return hypot(hypot(x, z) - Q("0.5"), y) - Q("0.125")

@@ -9,7 +9,7 @@ def holomorphic(**more):
     return formula("z", **more)
 
 
-@holomorphic(special=[1 + 0j, 2 + 1j, 0.4551j - 1.0986841], second=True)
+@holomorphic(special=[1 + 0j, 2 + 1j, 0.4551j - 1.0986841])
 def cplot_test_function(z):
     return (z**2 - 1) * (z - mp.mpc(2, 1)) ** 2 / (z**2 + mp.mpc(2, 2))
 
@@ -54,17 +54,17 @@ def cosine_over_z(z):
     return cos(z) / z
 
 
-@holomorphic(special=[0.99 + 0j, 0.001j], second=True)
+@holomorphic(special=[0.99 + 0j, 0.001j])
 def inverse_sine(z):
     return asin(z)
 
 
-@holomorphic(special=[0.99j, 0.001j], second=True)
+@holomorphic(special=[0.99j, 0.001j])
 def inverse_tangent(z):
     return atan(z)
 
 
-@holomorphic(special=[1.5j, 3 + 0j], second=True)
+@holomorphic(special=[1.5j, 3 + 0j])
 def hyperbolic_tangent(z):
     return tanh(z)
 
@@ -79,7 +79,7 @@ def digamma_function(z):
     return digamma(z)
 
 
-@holomorphic(special=[0.70710677 + 0.70710677j, 0.001j], second=True)
+@holomorphic(special=[0.70710677 + 0.70710677j, 0.001j])
 def laurent(z):
     return z**3 + 1 / z
 

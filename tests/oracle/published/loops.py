@@ -703,3 +703,15 @@ def metaballs(x, y, z):
     centre = lambda k: (mp.cospi(mp.mpf(2) * k / 5), mp.sinpi(mp.mpf(2) * k / 5))
     blob = lambda a, b: exp(-6 * ((x - a) ** 2 + (y - b) ** 2 + z**2))
     return total(blob(*centre(k)) for k in range(5)) - Q("0.5")
+
+
+@space(special=[(1, 0.5, 0.25), (0.1, 0.2, 0.9)])
+def octahedral_kifs(x, y, z):
+    for _ in range(6):
+        x, y, z = absolute(x), absolute(y), absolute(z)
+        x, y = greatest(x, y), least(x, y)
+        x, z = greatest(x, z), least(x, z)
+        y, z = greatest(y, z), least(y, z)
+        y, z = rotated(y, z, Q("0.25"))
+        x, y, z = 2 * x - 1, 2 * y, 2 * z
+    return (hypot(x, y, z) - 1) / 64

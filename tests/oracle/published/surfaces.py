@@ -134,7 +134,7 @@ def limao(x, y, z):
     return x**2 - y**3 * z**3
 
 
-@surface(special=[(0, 0, 0), (0, 1, 1)], second=True)
+@surface(special=[(0, 0, 0), (0, 1, 1)])
 def calypso(x, y, z):
     return x**2 + y**2 * z - z**2
 
@@ -144,7 +144,7 @@ def distel(x, y, z):
     return x**2 + y**2 + z**2 + 1000 * (x**2 + y**2) * (x**2 + z**2) * (y**2 + z**2) - 1
 
 
-@surface(special=[(0, 0, 1), (0.57735026, 0, 0)], second=True)
+@surface(special=[(0, 0, 1), (0.57735026, 0, 0)])
 def dattel(x, y, z):
     return 3 * x**2 + 3 * y**2 + z**2 - 1
 
@@ -213,7 +213,7 @@ def himmel_written(x, y, z):
     return (x - y * z) * (x + y * z)
 
 
-@surface(written=himmel_written, special=[(0, 0, 0), (1, 1, 1)], second=True)
+@surface(written=himmel_written, special=[(0, 0, 0), (1, 1, 1)])
 def himmel_und_hoelle(x, y, z):
     return x**2 - y**2 * z**2
 

@@ -25,7 +25,6 @@ pub struct Published {
     /// The program.
     pub source: String,
     quantities: Vec<Quantity>,
-    arity: usize,
     cases: Vec<Case>,
 }
 
@@ -133,7 +132,6 @@ impl Published {
             name,
             source,
             quantities,
-            arity,
             cases,
         }
     }
@@ -145,6 +143,22 @@ impl Published {
         let words = ["sum(", "product(", "iterate("];
         code.into_iter()
             .any(|line| words.iter().any(|w| line.contains(w)))
+    }
+
+    /// Whether the program replaces components of a vector: `p.xy = …`.
+    #[must_use]
+    pub fn updates(&self) -> bool {
+        let mut code = self.source.lines().filter(|line| !line.starts_with("//"));
+        code.any(|line| {
+            line.split(',').any(|part| {
+                let name = part.split('=').next().unwrap_or("").trim();
+                let name = name.rsplit(' ').next().unwrap_or("");
+                let members = name.split_once('.').map_or("", |(_, members)| members);
+                part.contains(" = ")
+                    && !members.is_empty()
+                    && members.chars().all(|c| "xyzw".contains(c))
+            })
+        })
     }
 
     /// Whether the table has second derivatives.
@@ -175,6 +189,47 @@ impl Published {
             factors.wrong.extend(alone.wrong);
         }
         Ok(factors)
+    }
+
+    /// Evaluates the value and the pure second derivatives, as the language writes them.
+    ///
+    /// # Errors
+    /// The program does not compile, or the machine cannot evaluate it; in words.
+    pub fn measure_second(&self, machine: &Machine) -> Result<Factors, String> {
+        let (formula, params) = compiled(&self.source)?;
+        let points = self.points(&params);
+        let mut results = machine.run(&formula, What::Value, &points)?;
+        for variable in self.variables() {
+            let (scene, inputs, call) = match formula.inputs.as_slice() {
+                [z] if z.ty == Type::Complex => ("domain", "z: complex", "f(z)"),
+                [p] if p.ty != Type::Real => ("surface", "x, y, z", "f((x, y, z))"),
+                [_] => ("levels", "x, y", "f(x)"),
+                [_, _] => ("levels", "x, y", "f(x, y)"),
+                _ => ("surface", "x, y, z", "f(x, y, z)"),
+            };
+            let program = format!(
+                "{}\nsecond({inputs}) = diff({call}, {variable}, 2)\nshow {scene}(second)\n",
+                self.source
+            );
+            let (second, _) = compiled(&program)?;
+            // a function of x alone is shown as one of the plane
+            let width = second.columns().len();
+            let mut points = points.clone();
+            for point in &mut points {
+                point.args.resize(width, 0.0);
+            }
+            let more = machine.run(&second, What::Value, &points)?;
+            for (row, more) in results.iter_mut().zip(more) {
+                row.extend(more);
+            }
+        }
+        Ok(self.judge(&results, Order::Second, machine.format()))
+    }
+
+    /// The variables of the second derivatives.
+    fn variables(&self) -> Vec<String> {
+        let seconds = self.quantities.iter().filter(|q| order(&q.name) == Order::Second);
+        seconds.map(|q| q.name[1..2].to_owned()).collect()
     }
 
     fn points(&self, params: &[f64]) -> Vec<Point> {
