@@ -234,10 +234,12 @@ def below(x, y, branch=True):
 
 # ------------------------------------------------------------------------------------------------------------------
 # Functions of one number, with three derivatives: the last is for the error of the second.
-def function(f0, f1, f2, f3):
+def function(f0, f1, f2, f3, unit=0):
+    """`unit` is the size below which results are not known relatively, but absolutely."""
+
     def rounded(fn, slope, a):
         v = fn(a.v)
-        return Num(v, abs(v), ((a, slope(a.v), "linear"),) if a.e else ())
+        return Num(v, max(abs(v), unit), ((a, slope(a.v), "linear"),) if a.e else ())
 
     def call(x):
         if not isinstance(x, Jet):
@@ -307,7 +309,7 @@ def derivatives_of_gamma(z):
 
 
 gamma = function(*[lambda z, k=k: derivatives_of_gamma(z)[k] for k in range(4)])
-digamma = function(*[lambda z, k=k: mp.psi(k, z) for k in range(4)])
+digamma = function(*[lambda z, k=k: mp.psi(k, z) for k in range(4)], unit=1)  # its roots are where large terms cancel
 
 
 def power(x, p):

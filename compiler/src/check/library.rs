@@ -145,10 +145,16 @@ pub fn overload(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::{Symbols, check_names};
 
     #[test]
     fn the_library_is_well_formed() {
         assert_eq!(parsed().diagnostics, []);
+        let mut found = Vec::new();
+        check_names(file(), &Symbols::default(), &mut found);
+        // names that are private, and numbers of arguments, are told apart by the builder
+        found.retain(|problem| !["unknown-function", "wrong-arity"].contains(&problem.code));
+        assert_eq!(found, []);
         for function in definitions() {
             let usage = &function.usage;
             assert!(

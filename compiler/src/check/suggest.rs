@@ -25,9 +25,13 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             }
             let distance = distance(&letters, &other);
             let longest = other.len().max(letters.len());
-            (distance <= limit && distance < longest).then_some((distance, c))
+            let pairs = letters.iter().zip(&other);
+            let alike = pairs.take_while(|(a, b)| a == b).count();
+            // of those equally near the one that begins like it
+            let rank = (distance, std::cmp::Reverse(alike), c.len());
+            (distance <= limit && distance < longest).then_some((rank, c))
         })
-        .min_by_key(|(d, c)| (*d, c.len(), *c))
+        .min_by_key(|&(rank, c)| (rank, c))
         .map(|(_, c)| c)
 }
 
@@ -87,5 +91,7 @@ mod tests {
         check("q", None);
         check("Y", Some("y"));
         check("banana", None);
+        let near = |names: [&'static str; 2]| nearest("laplace", names);
+        assert_eq!(near(["plane", "laplacian"]), Some("laplacian"));
     }
 }
