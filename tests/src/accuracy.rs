@@ -4,6 +4,7 @@ pub mod bounds;
 pub mod error;
 pub mod evaluators;
 pub mod formulas;
+pub mod literature;
 pub mod measure;
 pub mod report;
 pub mod second;

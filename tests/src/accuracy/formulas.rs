@@ -273,7 +273,7 @@ impl Table {
 }
 
 /// The least K for an error; `None` for what no K allows.
-fn factor(error: f64, scale: f64, format: Format) -> Option<f64> {
+pub(super) fn factor(error: f64, scale: f64, format: Format) -> Option<f64> {
     // scales are written with three digits; references with twenty, of which f64 keeps sixteen
     let (unit, slack) = match format {
         Format::Single => (2f64.powi(-24), f64::from(f32::MIN_POSITIVE)),
@@ -289,7 +289,7 @@ fn factor(error: f64, scale: f64, format: Format) -> Option<f64> {
     (scale > 0.0).then(|| excess / (2.0 * unit * scale))
 }
 
-fn number(cell: &str) -> f64 {
+pub(super) fn number(cell: &str) -> f64 {
     cell.parse()
         .unwrap_or_else(|_| panic!("`{cell}` is not a number"))
 }
