@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use crate::check::{Builder, Source, Value};
 use crate::derive::{ComplexVariable, NoDerivative, forward, jet};
 use crate::ir::{Id, Op, Prim, Ty};
-use crate::table::{self, Derivative};
+use crate::table::{self, Derivative, MAX_POLYGAMMA};
 use crate::types::Type;
 
 /// Greatest number of nodes that all passes of a builder that take derivatives may visit, so that programs of very
@@ -130,19 +130,32 @@ impl Builder<'_> {
         missing: NoDerivative,
         subject: Subject,
     ) -> Option<T> {
-        let name = table::row(missing.prim).sign();
+        // the only operation that ends: further derivatives of it have no function
+        let digamma = matches!(missing.prim, Prim::Polygamma(_));
+        let name = if digamma {
+            "digamma"
+        } else {
+            table::row(missing.prim).sign()
+        };
         let mut problem = Diagnostic::error(
             "no-derivative",
             subject.span,
-            format!("the derivative of `{name}` is not available"),
+            if digamma {
+                format!(
+                    "the derivative of `digamma` of order {} is not available",
+                    MAX_POLYGAMMA + 1
+                )
+            } else {
+                format!("the derivative of `{name}` is not available")
+            },
         )
         .with_label("cannot be differentiated");
         if let Some(place) = self.place_of(subject, missing.prim) {
             problem = problem.with_related(place, format!("`{name}` is here"));
         }
         let hint = match missing.prim {
-            Prim::Trigamma => {
-                "available are gamma'', lgamma'' and digamma', and lower orders".to_owned()
+            Prim::Polygamma(_) => {
+                format!("available are the derivatives of digamma up to order {MAX_POLYGAMMA}")
             }
             _ => format!("write it without {name}"),
         };
