@@ -374,7 +374,7 @@ fn noise_stays_small() {
         ("f(p: vec2) = noise(p)", 120, 165),
         ("f(p: vec3) = noise(p)", 260, 370),
         ("f(p: vec3) = fbm(p)", 315, 750),
-        ("f(p: vec3) = cellular(p)", 200, 2500),
+        ("f(p: vec3) = cellular(p)", 130, 205),
     ] {
         let formula = formula(source);
         let (graph, _) = formula.graph.compacted(&formula.value);
