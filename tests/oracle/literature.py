@@ -70,6 +70,15 @@ def evaluate(formula, args, flip=None):
     return formula.written(*seeds(formula, args))
 
 
+def size_of_value(formula, args):
+    """The largest intermediate result of the value alone."""
+    Run.reset()
+    Jet.second = False
+    none = [None] * (2 if formula.mode == "pair" else 1)
+    formula.written(*[Jet(Num(a), none, none, formula.mode) for a in args])
+    return Run.largest
+
+
 def difference(f, args, k, unit=1):
     """First and second derivative along a direction by differences; None where the sides disagree."""
     h = STEP * max(abs(args[k]), 1) * unit
@@ -133,6 +142,7 @@ def rows(formula, point):
     args = [mp.mpf(c) for c in point] if formula.mode == "real" else [mp.mpc(*point)]
     try:
         value = mp.mpmathify(formula.definition(*args))
+        alone = size_of_value(formula, args)
         jet = evaluate(formula, args)
         first, second = slopes(formula, args)
     except (ZeroDivisionError, ValueError):
@@ -153,8 +163,9 @@ def rows(formula, point):
         if Run.tie and not same:
             notes.append("kink")
         columns.append(None if Run.tie and not same else n.v)
-    if Run.largest > MAX_SINGLE:
-        notes.append("overflow64" if Run.largest > MAX_DOUBLE else "overflow")
+    for word, largest in (("overflow", alone), ("slope-overflow", Run.largest)):
+        if largest > MAX_SINGLE:
+            notes.append(word + ("64" if largest > MAX_DOUBLE else ""))
     if Run.coarse * DOUBLE > 1:
         notes.append("coarse64")
     elif Run.coarse * SINGLE > 1:

@@ -164,7 +164,9 @@ impl Published {
     /// Whether the table has second derivatives.
     #[must_use]
     pub fn second(&self) -> bool {
-        self.quantities.iter().any(|q| order(&q.name) == Order::Second)
+        self.quantities
+            .iter()
+            .any(|q| order(&q.name) == Order::Second)
     }
 
     /// Evaluates value and first derivatives at every point.
@@ -228,7 +230,10 @@ impl Published {
 
     /// The variables of the second derivatives.
     fn variables(&self) -> Vec<String> {
-        let seconds = self.quantities.iter().filter(|q| order(&q.name) == Order::Second);
+        let seconds = self
+            .quantities
+            .iter()
+            .filter(|q| order(&q.name) == Order::Second);
         seconds.map(|q| q.name[1..2].to_owned()).collect()
     }
 
@@ -249,7 +254,8 @@ impl Published {
             factors.rows += 1;
             // the row that fits best
             let rows = case.rows.iter().zip(&case.notes);
-            let open = rows.filter(|(_, note)| format == Format::Single || note.as_str() != "other");
+            let open =
+                rows.filter(|(_, note)| format == Format::Single || note.as_str() != "other");
             let outcomes = open.map(|(row, _)| self.row(case, row, result, order, format));
             let size = |f: &Factors| {
                 if f.wrong.is_empty() {
@@ -282,7 +288,6 @@ impl Published {
     ) -> Factors {
         let mut factors = Factors::default();
         let mut at = 0;
-        let overflows = case.overflows(format);
         for quantity in &self.quantities {
             let kind = order(&quantity.name);
             if kind != Order::Value && kind != asked {
@@ -295,12 +300,24 @@ impl Published {
             if expected.iter().any(|e| e.is_nan()) {
                 continue;
             }
-            if overflows && got.len() == width && got.iter().any(|v| !v.is_finite()) {
+            let lost = got.len() == width && got.iter().any(|v| !v.is_finite());
+            if lost && case.overflows(kind, format) {
                 continue;
             }
-            let describe =
-                || format!("{} at {:?}: {got:?} for {expected:?}", quantity.name, case.args);
-            let beyond = format == Format::Single && expected.iter().any(|e| e.abs() >= OVERFLOW);
+            let describe = || {
+                format!(
+                    "{} at {:?}: {got:?} for {expected:?}",
+                    quantity.name, case.args
+                )
+            };
+            let limit = match format {
+                Format::Single => OVERFLOW,
+                Format::Double => f64::INFINITY,
+            };
+            let beyond = expected.iter().any(|e| e.abs() >= limit);
+            if case.coarse(format) && !beyond {
+                continue;
+            }
             let norm = expected
                 .iter()
                 .zip(got)
@@ -329,16 +346,26 @@ impl Published {
 }
 
 impl Case {
-    /// Whether the first-order bound means anything in a format.
+    /// Whether anything can be said of the results: at least that they leave the range of the format.
     fn judged(&self, format: Format) -> bool {
-        let coarse = |note: &str| note == "coarse64" || note == "coarse" && format == Format::Single;
-        !self.notes[0].split(',').any(coarse)
+        !self.coarse(format) || self.overflows(Order::First, format)
     }
 
-    /// Whether an intermediate result leaves the range of a format.
-    fn overflows(&self, format: Format) -> bool {
-        let over = |note: &str| note == "overflow64" || note == "overflow" && format == Format::Single;
-        self.notes[0].split(',').any(over)
+    /// Whether the first-order bound means nothing in a format.
+    fn coarse(&self, format: Format) -> bool {
+        let coarse =
+            |note: &str| note == "coarse64" || note == "coarse" && format == Format::Single;
+        self.notes[0].split(',').any(coarse)
+    }
+
+    /// Whether an intermediate result of a value or derivative leaves the range of a format.
+    fn overflows(&self, kind: Order, format: Format) -> bool {
+        self.notes[0].split(',').any(|note| {
+            let of_value = note.strip_prefix("slope-");
+            let word = of_value.unwrap_or(note);
+            let here = of_value.is_none() || kind != Order::Value;
+            here && (word == "overflow64" || word == "overflow" && format == Format::Single)
+        })
     }
 }
 
