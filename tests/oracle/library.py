@@ -37,6 +37,18 @@ def blend(x, y, k, sign):
     return y * (1 - h) + x * h - sign * (k * h * (1 - h))
 
 
+def heaviside(x):
+    v = g.value(x)
+    return constant(x, (v > 0) - (v < 0)) / 2 + HALF
+
+
+def fmod(a, b):
+    """The remainder with the sign of a."""
+    q = g.value(a) / g.value(b)
+    whole = mp.floor(abs(q)) * (1 if q >= 0 else -1)
+    return a - whole * b
+
+
 def step(edge, x):
     return constant(x, 0) if x < edge else constant(x, 1)
 
@@ -46,6 +58,7 @@ REAL = {
     "sec": ("sec(x)", lambda x: 1 / cos(x)), "csc": ("csc(x)", lambda x: 1 / sin(x)), "cot": ("cot(x)", lambda x: 1 / tan(x)),
     "sech": ("sech(x)", lambda x: 1 / cosh(x)), "csch": ("csch(x)", lambda x: 1 / sinh(x)), "coth": ("coth(x)", lambda x: 1 / tanh(x)),
     "mix": ("mix(1, 3, x)", lambda x: 1 * (1 - x) + 3 * x), "clamp": ("clamp(x, -1, 0.5)", lambda x: clamp(x, constant(x, -1), constant(x, HALF))),
+    "heaviside": ("heaviside(x)", heaviside), "fmod": ("fmod(x, -0.75)", lambda x: fmod(x, mp.mpf("-0.75"))),
     "saturate": ("saturate(x)", lambda x: clamp(x, constant(x, 0), constant(x, 1))), "step": ("step(0.5, x)", lambda x: step(HALF, x)),
     "smoothstep": ("smoothstep(-1, 2, x)", lambda x: smoothstep(-1, 2, x)),
     "radians": ("radians(x)", lambda x: x * (mp.pi / 180)), "degrees": ("degrees(x)", lambda x: x * (180 / mp.pi)),
@@ -133,7 +146,7 @@ def main():
                 pts = g.points(rng, len(names), 3, special)
                 if name == "clamp" and len(names) > 1:  # an interval of one point: which bound holds is a convention
                     pts = [p for p in pts if len(set(p)) > 1]
-                if name in RECIPROCALS:
+                if name in RECIPROCALS or name == "fmod":
                     pts = [p for p in pts if abs(p[0]) < 500]
                 section(fh, name, ", ".join(names), formula, f, pts, [*names, "f", *slopes, *tail(slopes)])
         for table, slopes in ((HOLOMORPHIC, ["dz"]), (PAIR, ["dz", "dzbar"])):

@@ -5,10 +5,10 @@ mod extend;
 mod forward;
 mod gradient;
 mod jet;
-#[cfg(test)]
-mod loop_tests;
 mod reverse;
 mod rules;
+#[cfg(test)]
+mod tests;
 
 pub use forward::forward;
 pub use gradient::{Gradient, gradient};
