@@ -39,15 +39,15 @@ impl Parser<'_> {
     pub(crate) fn bump_name(&mut self) -> Name {
         let span = self.bump();
         Name {
-            text: span.text(self.text).to_owned(),
+            text: self.spelling(span).to_owned(),
             span,
         }
     }
 
     /// What a name of the text stands for here.
-    pub(crate) fn role_of(&mut self, name: &Name) -> Role {
-        let text = self.text;
-        self.scope.role_of_text(name.span.text(text))
+    pub(crate) fn role_of_ours(&mut self, name: &Name) -> Role {
+        let text = self.spelling(name.span);
+        self.scope.role_of_text(text)
     }
 
     /// Goes past the primes here and counts them.

@@ -3,6 +3,7 @@
 use crate::ast::{Expr, ExprId, Exprs, MAX_NESTING};
 use crate::diagnostic::MAX_DIAGNOSTICS;
 use crate::layout::{Layout, Statement, StatementKind};
+use crate::paste::Spellings;
 use crate::scope::Scope;
 use crate::token::{Token, TokenKind};
 use crate::{Diagnostic, Span};
@@ -14,6 +15,8 @@ pub(crate) struct Parser<'a> {
     pub(crate) scope: Scope<'a>,
     pub(crate) exprs: Exprs,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Names of other notations that have been read as ours.
+    pub(crate) foreign: Vec<Span>,
     /// Bars open in the innermost bracket: whether the next `|` closes.
     pub(crate) bars: u32,
     /// What is being read.
@@ -29,6 +32,7 @@ pub(crate) struct Parser<'a> {
     /// nowhere are then consequences.
     pub(crate) is_broken: bool,
     tokens: &'a [Token],
+    spellings: &'a Spellings,
     at: usize,
     /// Kind of the token at `at`.
     here: TokenKind,
@@ -62,6 +66,7 @@ impl<'a> Parser<'a> {
     pub(crate) fn new(
         text: &'a str,
         tokens: &'a [Token],
+        spellings: &'a Spellings,
         layout: &'a Layout,
         scope: Scope<'a>,
     ) -> Self {
@@ -71,6 +76,7 @@ impl<'a> Parser<'a> {
             scope,
             exprs: Exprs::default(),
             diagnostics: Vec::new(),
+            foreign: Vec::new(),
             bars: 0,
             statement: StatementKind::Formula,
             in_condition: false,
@@ -79,6 +85,7 @@ impl<'a> Parser<'a> {
             open_braces: 0,
             is_broken: false,
             tokens,
+            spellings,
             at: 0,
             here: TokenKind::End,
             start: 0,
@@ -199,6 +206,14 @@ impl<'a> Parser<'a> {
         self.tokens.get(self.at - 1)
     }
 
+    /// The place of all tokens of a statement: those of other notations may have changed their order.
+    pub(crate) fn spread(&self, statement: &Statement) -> Span {
+        let range = statement.start..statement.end.min(self.tokens.len());
+        let tokens = self.tokens.get(range).unwrap_or_default();
+        let spans = tokens.iter().map(|token| token.span);
+        spans.reduce(Span::join).unwrap_or_default()
+    }
+
     /// Whether the token here stands first on its line.
     pub(crate) fn starts_line(&self) -> bool {
         self.at < self.end && self.tokens.get(self.at).is_some_and(|t| t.starts_line)
@@ -208,7 +223,14 @@ impl<'a> Parser<'a> {
     pub(crate) fn token_text(&self, index: usize) -> &'a str {
         self.tokens
             .get(index)
-            .map_or("", |token| token.span.text(self.text))
+            .map_or("", |token| self.spelling(token.span))
+    }
+
+    /// The text of a name or number in this language, whatever the notation it was written in.
+    pub(crate) fn spelling(&self, span: Span) -> &'a str {
+        self.spellings
+            .get(span)
+            .unwrap_or_else(|| span.text(self.text))
     }
 
     /// Goes past the token here and returns its place.
@@ -239,7 +261,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Adds an expression to the arena, unless it is nested too deeply.
-    pub(crate) fn node(&mut self, expr: Expr, span: Span) -> Node {
+    pub(crate) fn node(&mut self, expr: Expr, mut span: Span) -> Node {
         let mut height = 0_u8;
         let lhs = match expr {
             Expr::Binary { op, lhs, .. } if op != crate::ast::BinaryOp::Pow => Some(lhs),
@@ -248,7 +270,13 @@ impl<'a> Parser<'a> {
         expr.for_each_child(|child| {
             let below = self.heights.get(child.index()).copied().unwrap_or(0);
             height = height.max(below.saturating_add(u8::from(Some(child) != lhs)));
+            // the tokens of other notations may have changed their order
+            span = span.join(self.exprs.span(child));
         });
+        if let Expr::Where { locals, .. } = &expr {
+            let names = locals.iter().map(|local| local.name.span);
+            span = names.fold(span, Span::join);
+        }
         if usize::from(height) > MAX_NESTING {
             self.complain_too_deep(span);
             return self.error_node(span);

@@ -267,7 +267,7 @@ fn begins_statement(tokens: &[Token], start: usize, at: usize, levels: &Levels) 
 }
 
 /// Whether a line that ends in this token goes on in the next.
-fn wants_more(kind: TokenKind) -> bool {
+pub(crate) fn wants_more(kind: TokenKind) -> bool {
     use TokenKind::{Comma, DotDot, Else, Equals, If, In, Not, Root, Then, Until, Where};
     kind.is_infix()
         || matches!(
@@ -277,7 +277,7 @@ fn wants_more(kind: TokenKind) -> bool {
 }
 
 /// Whether a line that begins with this token belongs to the line before.
-fn goes_on(kind: TokenKind) -> bool {
+pub(crate) fn goes_on(kind: TokenKind) -> bool {
     use TokenKind::{Comma, DotDot, Else, Equals, In, Then, Until, Where};
     kind.is_infix()
         || matches!(
@@ -287,7 +287,7 @@ fn goes_on(kind: TokenKind) -> bool {
 }
 
 /// Whether something that can only be a statement stands at `at`.
-fn definition_begins(tokens: &[Token], at: usize) -> bool {
+pub(crate) fn definition_begins(tokens: &[Token], at: usize) -> bool {
     match kind(tokens, at) {
         TokenKind::Param | TokenKind::Show => true,
         TokenKind::Name => match kind(tokens, at + 1) {
@@ -366,11 +366,7 @@ fn is_reversed_comparison(tokens: &[Token], at: usize) -> bool {
     matches!(next.kind, TokenKind::Less | TokenKind::Greater) && next.span.start == equals.span.end
 }
 
-/// Whether `=` or `:=` stands at `at`.
+/// Whether the `=` of a definition stands at `at`.
 fn equals_at(tokens: &[Token], at: usize) -> bool {
-    match kind(tokens, at) {
-        TokenKind::Equals => !is_reversed_comparison(tokens, at),
-        TokenKind::Colon => kind(tokens, at + 1) == TokenKind::Equals,
-        _ => false,
-    }
+    kind(tokens, at) == TokenKind::Equals && !is_reversed_comparison(tokens, at)
 }

@@ -28,6 +28,7 @@ mod format;
 mod layout;
 mod parse;
 mod parser;
+mod paste;
 mod piece;
 mod printer;
 mod render;

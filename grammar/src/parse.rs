@@ -3,9 +3,10 @@
 use crate::ast::{File, MAX_SOURCE_BYTES};
 use crate::cursor::Parser;
 use crate::diagnostic::limit;
-use crate::layout::layout;
+use crate::layout::{Layout, layout};
+use crate::paste::translate;
 use crate::scope::Scope;
-use crate::token::tokenize;
+use crate::token::{Token, tokenize};
 use crate::{Diagnostic, Span};
 
 /// A syntax tree and every problem of its text.
@@ -36,10 +37,32 @@ impl Parsed {
 /// ```
 #[must_use]
 pub fn parse(text: &str, is_function: &dyn Fn(&str) -> bool) -> Parsed {
+    read(text, is_function).parsed
+}
+
+/// A syntax tree with the tokens that it was read from.
+#[derive(Default)]
+pub(crate) struct Reading {
+    pub(crate) parsed: Parsed,
+    /// The tokens in this language.
+    pub(crate) tokens: Vec<Token>,
+    pub(crate) layout: Layout,
+    /// What was written in another notation, in the order of the text.
+    pub(crate) foreign: Vec<Span>,
+}
+
+/// Reads a file and keeps its tokens.
+pub(crate) fn read(text: &str, is_function: &dyn Fn(&str) -> bool) -> Reading {
     if text.len() > MAX_SOURCE_BYTES {
-        return too_large(text.len());
+        return Reading {
+            parsed: too_large(text.len()),
+            ..Reading::default()
+        };
     }
     let (tokens, mut diagnostics) = tokenize(text);
+    let mut pasted = translate(text, tokens);
+    diagnostics.append(&mut pasted.diagnostics);
+    let tokens = pasted.tokens;
     let layout = layout(&tokens);
     if layout.statements.is_empty() && diagnostics.is_empty() {
         diagnostics.push(
@@ -48,18 +71,25 @@ pub fn parse(text: &str, is_function: &dyn Fn(&str) -> bool) -> Parsed {
                 .with_hint("write a formula, such as `x^2 + y^2 - 1`"),
         );
     }
-    let mut parser = Parser::new(text, &tokens, &layout, Scope::new(is_function));
+    let scope = Scope::new(is_function);
+    let mut parser = Parser::new(text, &tokens, &pasted.spellings, &layout, scope);
     parser.collect_definitions();
     let items = parser.file();
     diagnostics.append(&mut parser.diagnostics);
     diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
     limit(&mut diagnostics);
-    Parsed {
-        file: File {
-            items,
-            exprs: parser.exprs,
-        },
-        diagnostics,
+    let mut foreign = pasted.foreign;
+    foreign.append(&mut parser.foreign);
+    foreign.sort_unstable();
+    let file = File {
+        items,
+        exprs: parser.exprs,
+    };
+    Reading {
+        parsed: Parsed { file, diagnostics },
+        tokens,
+        layout,
+        foreign,
     }
 }
 

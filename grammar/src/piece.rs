@@ -23,8 +23,7 @@ pub(crate) enum Piece {
 impl Parser<'_> {
     /// A name begins to hold.
     pub(crate) fn bind_name(&mut self, name: &Name) {
-        let text = self.text;
-        self.scope.bind(name.span.text(text));
+        self.scope.bind(self.spelling(name.span));
     }
 
     /// Names end to hold.

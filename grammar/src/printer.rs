@@ -282,10 +282,19 @@ fn parts<'a>(stack: &mut Vec<Work<'a>>, exprs: &'a Exprs, id: ExprId, in_bars: b
                 BinaryOp::ImplicitMul => (" ", Level::Product, Level::Power),
                 BinaryOp::Pow => ("^", Level::Postfix, Level::Prefix),
             };
-            let right = if *op == BinaryOp::ImplicitMul {
-                Work::Factor(*rhs, in_bars)
+            let is_division = matches!(
+                exprs[*lhs],
+                Expr::Binary {
+                    op: BinaryOp::Div,
+                    ..
+                }
+            );
+            let (left, right) = if *op == BinaryOp::ImplicitMul {
+                // `1 / 2 x` reads well, but with a warning.
+                let left = if is_division { Level::Prefix } else { left };
+                (left, Work::Factor(*rhs, in_bars))
             } else {
-                at(*rhs, right)
+                (left, at(*rhs, right))
             };
             stack.extend([at(*lhs, left), Text(sign), right]);
         }

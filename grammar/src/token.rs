@@ -146,6 +146,24 @@ pub enum TokenKind {
     #[token("not")]
     #[token("¬")]
     Not,
+    /// `\sin`, `\,`: a command of LaTeX
+    #[regex(r"\\([A-Za-z]+|\r\n|[^A-Za-z])")]
+    Command,
+    /// `$`, around a formula of LaTeX
+    #[token("$")]
+    Dollar,
+    /// `?`, the choice of C
+    #[token("?")]
+    Question,
+    /// `&`, between the columns of LaTeX
+    #[token("&")]
+    Ampersand,
+    /// `[`
+    #[token("[")]
+    LSquare,
+    /// `]`
+    #[token("]")]
+    RSquare,
     /// Text that is no token; a diagnostic has been given.
     Error,
     /// The end of the text, or of the statement being read.
@@ -201,7 +219,8 @@ pub struct Token {
     pub starts_line: bool,
 }
 
-/// The tokens of a text, without blanks and comments, and what could not be read.
+/// The tokens of a text, without blanks and comments, and what could not be read. Those of other notations, such as
+/// [`TokenKind::Command`], are still as they were written.
 ///
 /// Bytes beyond [`MAX_SOURCE_BYTES`](crate::ast::MAX_SOURCE_BYTES) are the caller's to refuse.
 #[must_use]
@@ -210,8 +229,6 @@ pub fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
     let mut lexer = TokenKind::lexer(text);
     let mut starts_line = true;
-    // A square bracket is read as a round one; the complaint about the opening one serves for both.
-    let mut squares = 0_usize;
     while let Some(result) = lexer.next() {
         let mut kind = result.unwrap_or(TokenKind::Error);
         match kind {
@@ -280,15 +297,10 @@ pub fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
                         tokens.pop();
                     }
                 }
-                if culprit == ']' && squares > 0 {
-                    squares -= 1;
-                } else {
-                    // Found in the order of the text: what is not listed need not be made.
-                    if diagnostics.len() <= MAX_DIAGNOSTICS {
-                        diagnostics.push(stray::complaint(culprit, span(place)));
-                    }
+                // Found in the order of the text: what is not listed need not be made.
+                if diagnostics.len() <= MAX_DIAGNOSTICS {
+                    diagnostics.push(stray::complaint(culprit, span(place)));
                 }
-                squares += usize::from(culprit == '[');
                 kind = stray::stands_for(culprit);
                 tokens.push(Token {
                     kind,

@@ -5,7 +5,8 @@ mod support;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use pullback_grammar::token::comments;
-use pullback_grammar::{format, same_tree};
+use pullback_grammar::{format, print, same_tree};
+use support::generate::{Random, program as random_program, with_comments};
 use support::{fixture, is_function, read};
 
 /// Columns of a line.
@@ -53,6 +54,16 @@ fn line_breaks_of_other_systems() {
     let expected = "a = 1\n\nf(x) = x /* one\n two */ + 1\n// three\n";
     assert_eq!(canonical(text), expected);
     assert_eq!(canonical("\u{FEFF}a = 1\rb=2"), "a = 1\nb = 2\n");
+}
+
+#[test]
+fn random_trees() {
+    for seed in 0..3000 {
+        let random = &mut Random::new(seed);
+        let printed = print(&random_program(random));
+        canonical(&printed);
+        canonical(&with_comments(&printed, random));
+    }
 }
 
 #[test]

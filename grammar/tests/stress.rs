@@ -101,6 +101,132 @@ const PIECES: &[&str] = &[
     "漢",
 ];
 
+/// Pieces of other notations.
+const FOREIGN: &[&str] = &[
+    "\\frac",
+    "\\frac{",
+    "}{",
+    "}",
+    "{",
+    "\\sqrt",
+    "\\sqrt[3]",
+    "\\sqrt[",
+    "]",
+    "[",
+    "\\sin",
+    "\\sin ",
+    "\\ln",
+    "\\log_",
+    "\\log_{",
+    "^{",
+    "^",
+    "_{",
+    "_",
+    "x_{",
+    "\\alpha",
+    "\\pi",
+    "\\phi_1",
+    "\\left(",
+    "\\right)",
+    "\\left|",
+    "\\right|",
+    "\\left",
+    "\\right",
+    "\\{",
+    "\\}",
+    "\\lfloor",
+    "\\rfloor",
+    "\\lvert",
+    "\\rvert",
+    "|",
+    "||",
+    "\\cdot",
+    "\\le",
+    "\\,",
+    "\\\\",
+    "\\ ",
+    "\\",
+    "\\sum",
+    "\\sum_{k=1}^{n}",
+    "\\prod_{k=",
+    "\\int",
+    "\\int_0^1",
+    "dx",
+    "\\mathrm{d}x",
+    "\\begin{cases}",
+    "\\end{cases}",
+    "\\begin{aligned}",
+    "\\end{aligned}",
+    "\\begin{pmatrix}",
+    "&",
+    "\\text{if }",
+    "\\text{otherwise}",
+    "\\operatorname{",
+    "\\operatorname{f}",
+    "\\bar",
+    "\\bar{z}",
+    "\\foo",
+    "\\lim",
+    "\\prime",
+    "$",
+    "$$",
+    "?",
+    ":",
+    "c ? a : b",
+    " if ",
+    " else ",
+    "np.",
+    "np.sin(",
+    "np.where(",
+    "Math.PI",
+    "std::",
+    "1.0f",
+    "2.",
+    "3u",
+    "2j",
+    "f",
+    "h",
+    "vec3<f32>(",
+    "vec3f(",
+    "float(",
+    "float ",
+    "let ",
+    "return ",
+    "float f(vec3 p) {",
+    "def f(x): return ",
+    "lambda x: ",
+    "f[x_] := ",
+    "Sin[",
+    "x.^2",
+    " .* ",
+    ":=",
+    "a += 1;",
+    "x",
+    "y",
+    "1",
+    "12",
+    "(",
+    ")",
+    "+",
+    "-",
+    "*",
+    "/",
+    "=",
+    ",",
+    ";",
+    "\n",
+    " ",
+    "// c\n",
+    "f(x) = ",
+    "where a = ",
+    "{ x < 0: ",
+    "PI",
+    "tg(",
+    "atan(y, x)",
+    "==",
+    "<",
+];
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, rng_seed: RngSeed::Fixed(20), ..ProptestConfig::default() })]
 
@@ -121,6 +247,28 @@ proptest! {
             let again = read(&printed);
             prop_assert_eq!(support::show_file(&parsed.file), support::show_file(&again.file), "{}\n{}", text, printed);
             prop_assert_eq!(print(&again.file), printed);
+            let formatted = format(&text, &is_function).unwrap_or_default();
+            prop_assert_eq!(support::show_file(&parsed.file), support::show_file(&read(&formatted).file), "{}\n{}", text, formatted);
+            let again = format(&formatted, &is_function);
+            prop_assert_eq!(again, Some(formatted), "{}", text);
+        }
+    }
+
+    #[test]
+    fn any_foreign_tokens(
+        pieces in prop_oneof![
+            prop::collection::vec(prop::sample::select(FOREIGN), 0..8),
+            prop::collection::vec(prop::sample::select(FOREIGN), 0..50),
+        ],
+        spaced in any::<bool>(),
+    ) {
+        let text = pieces.join(if spaced { " " } else { "" });
+        let parsed = read(&text);
+        let _ = render(&parsed.diagnostics, "x", &text, false);
+        let printed = print(&parsed.file);
+        if !parsed.has_errors() {
+            let again = read(&printed);
+            prop_assert_eq!(support::show_file(&parsed.file), support::show_file(&again.file), "{}\n{}", text, printed);
             let formatted = format(&text, &is_function).unwrap_or_default();
             prop_assert_eq!(support::show_file(&parsed.file), support::show_file(&read(&formatted).file), "{}\n{}", text, formatted);
             let again = format(&formatted, &is_function);
@@ -244,6 +392,73 @@ fn deep_texts_are_refused_once() {
             };
             assert_eq!(found, expected, "{piece}");
         }
+    });
+}
+
+#[test]
+fn deep_foreign_texts_are_refused_once() {
+    on_small_stack(|| {
+        let deep = [
+            "\\frac{",
+            "\\frac{x}{",
+            "\\frac12 + \\sqrt{",
+            "\\sqrt{",
+            "\\sqrt[n]{",
+            "\\left(",
+            "\\left|",
+            "\\lfloor ",
+            "\\{",
+            "\\bar{",
+            "\\sin{",
+            "\\sin\\cos ",
+            "\\sin^n\\cos ",
+            "x^{x + ",
+            "\\log_{x + ",
+            "\\begin{cases} ",
+            "\\begin{cases} x & x < ",
+            "\\sum_{k=1}^3 ",
+            "\\sum_{k=",
+            "\\int_0^1 ",
+            "np.where(",
+            "np.where(x < 1, ",
+            "x ? ",
+            "x ? y : ",
+            "(x ? y : ",
+            "x if y else ",
+            "x if (",
+            "Sin[",
+            "vec3<f32>(",
+        ];
+        for piece in deep {
+            for text in [
+                piece.repeat(50_000),
+                format!("f(x) = {}x\ng(x) = @", piece.repeat(1000)),
+            ] {
+                let found = codes(&text);
+                let deep = found.iter().filter(|code| **code == "too-deep").count();
+                assert!(deep == 1, "{piece}: {found:?}");
+            }
+        }
+    });
+}
+
+#[test]
+fn long_damaged_foreign_texts_are_read_in_linear_time() {
+    on_small_stack(|| {
+        for piece in FOREIGN {
+            let _ = codes(&piece.repeat(40_000));
+            for text in [
+                format!("x {piece} y "),
+                format!("({piece} x) \n"),
+                format!("{{{piece}"),
+            ] {
+                let _ = codes(&text.repeat(4_000));
+            }
+        }
+        let mut mebibyte = "\\frac{".repeat((1 << 20) / 6);
+        let _ = codes(&mebibyte);
+        mebibyte.push_str(&"}".repeat(1000));
+        let _ = codes(&mebibyte);
     });
 }
 

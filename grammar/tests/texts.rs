@@ -67,6 +67,34 @@ fn well_formed_texts() {
 }
 
 #[test]
+fn pasted_texts() {
+    let count = fixture::check("pasted.txt", |text| {
+        let parsed = read(text);
+        let printed = print(&parsed.file);
+        if !parsed.has_errors() {
+            let again = read(&printed);
+            assert_eq!(again.diagnostics, [], "{text}\n{printed}");
+            assert_eq!(show_file(&parsed.file), show_file(&again.file), "{printed}");
+            let formatted = format(text, &is_function).expect("a text without errors");
+            let again = read(&formatted);
+            assert_eq!(
+                show_file(&parsed.file),
+                show_file(&again.file),
+                "{formatted}"
+            );
+            assert_eq!(again.diagnostics, [], "{text}\n{formatted}");
+            assert!(
+                !formatted.contains(['\\', '$', '?', '[', ';']),
+                "{formatted}"
+            );
+            assert_eq!(format(&formatted, &is_function), Some(formatted), "{text}");
+        }
+        format!("{}\n{}", printed.trim_end(), complaints(text, &parsed))
+    });
+    assert!(count >= 100, "{count}");
+}
+
+#[test]
 fn malformed_texts() {
     let mut codes = HashSet::new();
     let seen = std::cell::RefCell::new(&mut codes);

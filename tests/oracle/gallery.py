@@ -194,10 +194,11 @@ def clamp(x, lo, hi):
     return mp.mpf(lo) if x < lo else mp.mpf(hi) if hi < (x.a.v if isinstance(x, Dual) else x) else x
 
 
-def combine(x, y, value, dx, dy):
-    """A function of two reals with the error bounds of value and slopes taken to be a few roundings."""
+def combine(x, y, value, dx, dy, bend=(0, 0)):
+    """A function of two reals with the error bounds of value and slopes taken to be a few roundings, and `bend`: how far
+    the errors of the operands move the slopes."""
     e = abs(dx) * x.a.e + abs(dy) * y.a.e + abs(value)
-    px, py = Num(dx, 4 * abs(dx)), Num(dy, 4 * abs(dy))
+    px, py = Num(dx, 4 * abs(dx) + bend[0]), Num(dy, 4 * abs(dy) + bend[1])
     return x.like(Num(value, e), [plus(times(p, px), times(q, py)) for p, q in zip(x.d, y.d)])
 
 
@@ -205,7 +206,12 @@ def hypot(x, y):
     if not isinstance(x, Dual):
         return mp.hypot(x, y)
     r = mp.hypot(x.a.v, y.a.v)
-    return combine(x, y, r, x.a.v / r if r else mp.mpf(0), y.a.v / r if r else mp.mpf(0))
+    if not r:
+        return combine(x, y, r, mp.mpf(0), mp.mpf(0))
+    u, v = x.a.v / r, y.a.v / r
+    # the direction turns by the error across it
+    across = (abs(v) * x.a.e + abs(u) * y.a.e) / r
+    return combine(x, y, r, u, v, (abs(v) * across, abs(u) * across))
 
 
 def hypot3(x, y, z):
@@ -266,7 +272,76 @@ def norms(x, y):
     return least(absolute(x - d) + absolute(y), least(hypot(x, y), greatest(absolute(x + d), absolute(y))))
 
 
+def value(x):
+    """The plain number in a dual."""
+    return x.a.v if isinstance(x, Dual) else x
+
+
+def mandelbrot(x, y):
+    """Real and imaginary parts apart; the orbit's z and its derivative d."""
+    zx, zy, dx, dy = mp.mpf(0), mp.mpf(0), mp.mpf(0), mp.mpf(0)
+    for _ in range(200):
+        if mp.hypot(value(zx), value(zy)) > 1000:
+            break
+        zx, zy, dx, dy = zx * zx - zy * zy + x, 2 * (zx * zy) + y, 2 * (zx * dx - zy * dy) + 1, 2 * (zx * dy + zy * dx)
+    if mp.hypot(value(zx), value(zy)) <= 2:
+        return 0 * x
+    size = hypot(zx, zy)
+    return log(size) * size / hypot(dx, dy)
+
+
+def square_wave(x, y):
+    terms = [sin((2 * k - 1) * x) / (2 * k - 1) for k in range(1, 10)]
+    total = terms[0]
+    for term in terms[1:]:
+        total = total + term
+    return y - 4 / PI * total
+
+
+def parabolic(x, y):
+    """The determinant of the second derivatives of `peaks`, each written out by hand term by term."""
+    a, b, c = exp(-(x**2) - (y + 1) ** 2), exp(-(x**2) - y**2), exp(-((x + 1) ** 2) - y**2)
+    one = lambda v: 0 * x + v
+    u = 1 - x
+    # 3 u² a
+    xx = 3 * a * (2 + 8 * x * u + u * u * (4 * x * x - 2))
+    xy = 3 * a * (-2 * (y + 1)) * (-2 * u - 2 * x * u * u)
+    yy = 3 * a * u * u * (4 * (y + 1) ** 2 - 2)
+    # -10 q b with q = x/5 - x³ - y⁵
+    q, qx, qy = x / 5 - x**3 - y**5, one(1) / 5 - 3 * x * x, -5 * y**4
+    xx = xx - 10 * b * (-6 * x - 4 * x * qx + q * (4 * x * x - 2))
+    xy = xy - 10 * b * (-2 * y * qx - 2 * x * qy + 4 * x * y * q)
+    yy = yy - 10 * b * (-20 * y**3 - 4 * y * qy + q * (4 * y * y - 2))
+    # -c/3
+    xx = xx - c / 3 * (4 * (x + 1) ** 2 - 2)
+    xy = xy - c / 3 * 4 * (x + 1) * y
+    yy = yy - c / 3 * (4 * y * y - 2)
+    return xx * yy - xy * xy
+
+
+def landscape(x, y):
+    import noise
+
+    return noise.fbm([x, y])
+
+
+def cells(x, y):
+    import noise
+
+    return noise.cellular(x, y)
+
+
+# Points that some formulas are judged at: far away the lattice of the noise is finer than binary32; next to the planes
+# that the sponge is mirrored by, binary32 cannot tell which of two coordinates is the greater after a fold.
+JUDGED = {name: lambda c: abs(c) <= 100 for name in ("landscape", "cells", "pebble")}
+JUDGED["sponge"] = lambda c: 1e-3 <= abs(c) <= 100
+
 PLANE = {
+    "mandelbrot": (mandelbrot, 2, [(-0.75, 0.1), (0.3, 0.5), (-1.25, 0.05), (-2, 0), (0.251, 0)]),
+    "square-wave": (square_wave, 4, [(0, 0), (3.1415927, 1), (1.5707964, 1), (0.05, 1.179)]),
+    "parabolic": (parabolic, 3, [(0, 0), (1, -1), (0.2282789, -1.6255349), (-1, 0)]),
+    "landscape": (landscape, 3, [(0, 0), (1, 1), (0.5, -0.5), (-2, 0.25)]),
+    "cells": (cells, 3, [(0, 0), (1, 1), (0.5, -0.5), (-2, 0.25)]),
     "sin-rings": (lambda x, y: sin(x**2 + y**2), 4, [(0, 0), (1.7724538, 0), (1.2533141, 1.2533141)]),
     "saddle": (lambda x, y: x**2 - y**2, 4, [(1, 1), (3, -3), (10000, 9999.999), (1e10, 1e10)]),
     "tangent-weave": (lambda x, y: tan(x * y), 3, [(1, 1.5707964), (2, 0.7853982), (-1.5707964, 1), (3, -1.5707964)]),
@@ -288,7 +363,21 @@ def blaschke(z, conjugate=None):
     return product
 
 
+def newton_basins(z):
+    for _ in range(16):
+        z = z - (z**3 - 1) / (3 * z**2)
+    return z
+
+
+def julia(z):
+    for _ in range(7):
+        z = z**2 + mp.mpc("-0.8", "0.156")
+    return z
+
+
 HOLOMORPHIC = {
+    "newton-basins": (newton_basins, 2, [1, -0.5 + 0.8660254j, -1, 0.5 + 0.3j]),
+    "julia-set": (julia, 1.5, [0, 1, 1.525 - 0.1j, -0.525 + 0.1j]),
     "rational": (lambda z: (z**2 - 1) / (z + mp.j), 3, [1, -1, -1j]),
     "essential": (lambda z: exp(1 / z), 2, [0, 0.05, -0.05, 0.03j]),
     "z-to-z": (lambda z: exp(z * log(z)), 3, [0, 1, -1, -2, 0.36787944]),
@@ -340,7 +429,61 @@ def smooth_union(x, y, z):
     return blend(blend(ball("-0.75", 0, "0.5"), ball("0.75", 0, "0.5")), ball(0, "0.75", "0.625"))
 
 
+def turned(x, y, angle):
+    c, s = mp.cos(mp.mpf(angle)), mp.sin(mp.mpf(angle))
+    return x * c - y * s, x * s + y * c
+
+
+def kifs(x, y, z):
+    for _ in range(6):
+        x, y, z = (absolute(v) - mp.mpf(f) for v, f in zip((x, y, z), ("0.625", "0.5", "0.375")))
+        x, y = turned(x, y, "0.45")
+        x, z = turned(x, z, "0.45")
+        x, y, z = (mp.mpf("1.75") * v for v in (x, y, z))
+    return (hypot3(x, y, z) - mp.mpf("1.25")) / mp.mpf("1.75") ** 6
+
+
+def sponge(x, y, z):
+    for _ in range(4):
+        x, y, z = absolute(x), absolute(y), absolute(z)
+        x, y = greatest(x, y), least(x, y)
+        y, z = greatest(y, z), least(y, z)
+        x, y = greatest(x, y), least(x, y)
+        x, y, z = (3 * v - 2 for v in (x, y, z))
+        z = z + 2 if z < -1 else z
+    outside = [absolute(v) - 1 for v in (x, y, z)]
+    furthest = greatest(greatest(outside[0], outside[1]), outside[2])
+    if furthest < 0:
+        return furthest / 81
+    x, y, z = (greatest(v, 0 * v) for v in outside)
+    return hypot3(x, y, z) / 81
+
+
+def mandelbulb(x, y, z):
+    """White and Nylander's formula, angles measured from the z axis."""
+    u, v, w, d = x, y, z, 1
+    for _ in range(5):
+        r = hypot3(u, v, w)
+        if value(r) > 4:
+            break
+        inclination, azimuth = atan2(hypot(u, v), w), atan2(v, u)
+        s, r8, r7 = sin(8 * inclination), r**8, r**7
+        u, v, w, d = r8 * s * cos(8 * azimuth) + x, r8 * s * sin(8 * azimuth) + y, r8 * cos(8 * inclination) + z, 8 * r7 * d + 1
+    r = hypot3(u, v, w)
+    return log(r) / 2 * r / d - mp.mpf("0.002")
+
+
+def pebble(x, y, z):
+    import noise
+
+    return hypot3(x, y, z) - 1 + mp.mpf("0.3") * noise.noise([3 * x, 3 * y, 3 * z])
+
+
 SPACE = {
+    "kifs": (kifs, 2, [(0.625, 0.5, 0.375), (1, 0.2, 0.3), (0, 0, 0)]),
+    "sponge": (sponge, 1.25, [(1, 0.4, 0.3), (0.34, 0.9, 1), (0.5, 0.5, 0.2)]),
+    "mandelbulb": (mandelbulb, 1.25, [(0.9, 0.3, 0.2), (0, 1.1, 0.1), (0.5, 0.5, 0.5)]),
+    "pebble": (pebble, 1.5, [(1, 0, 0), (0, 0.6666667, 0.3333333), (0.3, 0.2, -0.9)]),
     "schwarz-p": (lambda x, y, z: cos(PI * x) + cos(PI * y) + cos(PI * z), 2, [(0, 0, 0), (0.5, 0.5, 0.5), (1, 0, 0.5), (1, 1, 0)]),
     "gyroid": (lambda x, y, z: sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x), 6, [(0, 0, 0), (3.1415927, 0, 0), (1.5707964, 1.5707964, 0)]),
     "clebsch": (lambda x, y, z: x**3 + y**3 + z**3 + 1 - (x + y + z + 1) ** 3, 3, [(0.5, -0.5, -1), (2, -2, -1), (-1, 0.25, -0.25), (0, 0, 0)]),
@@ -537,7 +680,10 @@ def main():
         slopes = [f"d{n}" for n in names]
         for name, (f, radius, special) in table.items():
             rng = random.Random(name)
-            write(out, name, f, points(rng, len(names), radius, special), [*names, "f", *slopes, *tail(slopes)])
+            pts = points(rng, len(names), radius, special)
+            if name in JUDGED:
+                pts = [p for p in pts if all(map(JUDGED[name], p))]
+            write(out, name, f, pts, [*names, "f", *slopes, *tail(slopes)])
     for table, slopes in ((HOLOMORPHIC, ["dz"]), (PAIR, ["dz", "dzbar"])):
         for name, (f, radius, special) in table.items():
             rng = random.Random(name)
@@ -546,4 +692,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    # under its own name, which noise.py imports it by
+    import gallery
+
+    gallery.main()

@@ -82,7 +82,8 @@ def slope(h, n):
 
 
 def fade(t):
-    return t * t * t * (t * (6 * t - 15) + 10)
+    u = 1 - t
+    return t * t * t * (u * (6 * u + 3) + 1)
 
 
 def blended(values, s):

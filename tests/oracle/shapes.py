@@ -138,7 +138,8 @@ smin_root = ordered(lambda lo, hi: lo - K * (K / (hypot(hi - lo, constant(lo, K)
 
 def smootherstep(a, b, x):
     t = saturate((x - a) / (b - a))
-    return t * t * t * (t * (6 * t - 15) + 10)
+    u = 1 - t
+    return t * t * t * (u * (6 * u + 3) + 1)
 
 
 REAL = {

@@ -2,6 +2,10 @@
 
 use pullback_tests::calculus::{Points, close_to, values};
 
+/// Relative to the value and to 1, for values up to some hundreds in `f32` whose arguments were rounded to it.
+#[cfg(feature = "gpu")]
+const GPU_BOUND: f64 = 4e-6;
+
 /// A program with a derivative, and one with its closed form.
 type Case = (&'static str, &'static str);
 
@@ -242,6 +246,72 @@ const FIELDS: &[Case] = &[
     ),
 ];
 
+const LOOPS: &[Case] = &[
+    (
+        "f(x, y) = diff(sum(k in 1..4, x^k y), x)",
+        "f(x, y) = (1 + 2x + 3x² + 4x³) y",
+    ),
+    (
+        "f(x, y) = diff(product(k in 1..3, x + k y), x)",
+        "f(x, y) = 3x² + 12 x y + 11 y²",
+    ),
+    (
+        "f(x, y) = diff(sum(k in 0..5, sin(k x)), x, 2) + y",
+        "f(x, y) = y - sum(k in 0..5, k² sin(k x))",
+    ),
+    // inside of a loop, by what is outside, by the running variable, by a state
+    (
+        "f(x, y) = sum(k in 1..3, diff(x^k y, x))",
+        "f(x, y) = (1 + 2x + 3x²) y",
+    ),
+    (
+        "f(x, y) = sum(k in 1..3, diff(k² x, k)) + y",
+        "f(x, y) = 12 x + y",
+    ),
+    (
+        "f(x, y) = sum(k in 1..2, j in k..3, diff(a, k) + diff(a, j) where a = k² j x) + y",
+        "f(x, y) = x sum(k in 1..2, j in k..3, 2 k j + k²) + y",
+    ),
+    (
+        "f(x, y) = iterate(3, z = x, diff(z^3, z)/3) + y",
+        "f(x, y) = x^8 + y",
+    ),
+    (
+        "f(x, y) = iterate(2, z = x, diff(z² y, y)) + y",
+        "f(x, y) = x^4 + y",
+    ),
+    (
+        "s(t) = diff(t³, t)\nf(x, y) = iterate(2, z = x/2, s(z) + y)",
+        "f(x, y) = 3 (3 x²/4 + y)² + y",
+    ),
+    // through a loop
+    (
+        "g(x, y) = iterate(3, z = x, z² + y)\nf(x, y) = diff(g, x) + diff(g, y)",
+        "f(x, y) = d + e where a = x² + y, b = a² + y, d = 8 b a x, e = 2 b (2 a + 1) + 1",
+    ),
+    (
+        "g(t) = iterate(3, z = t, sin(z))\nf(x, y) = g'(x y)",
+        "f(x, y) = cos(sin(sin(t))) cos(sin(t)) cos(t) where t = x y",
+    ),
+    (
+        "g(t) = iterate(2, z = t, z²)\nf(x, y) = g''(x) g'''(y)",
+        "f(x, y) = 288 x² y",
+    ),
+    (
+        "f(x, y) = diff(r², r) + y where r = iterate(2, z = x, z²)",
+        "f(x, y) = 2 x^4 + y",
+    ),
+    (
+        "f(x, y) = diff(r.z r.w, x) where r = iterate(2, z = x, w = y, (z w, w + z))",
+        "f(x, y) = (2 x y + y²) w + x y (x + y) (1 + y) where w = x + y + x y",
+    ),
+    // the number of steps is a parameter that is differentiated by as well, and does not change
+    (
+        "g(x, n) = dot(grad(sum(k in 1..n, x^k)), (1, 5))\nf(x, y) = g(x, 3) + y",
+        "f(x, y) = 1 + 2x + 3x² + y",
+    ),
+];
+
 fn check(cases: &[Case]) {
     let mut wrong = Vec::new();
     for &(derived, closed) in cases {
@@ -281,6 +351,51 @@ fn names_and_what_they_depend_on() {
 }
 
 #[test]
+fn loops() {
+    check(LOOPS);
+}
+
+#[test]
 fn gradients_and_their_kin() {
     check(FIELDS);
+}
+
+/// All of them on the GPU, against the closed form in `f64`.
+#[cfg(feature = "gpu")]
+#[test]
+fn closed_forms_on_the_gpu() {
+    use pullback_compiler::What;
+    use pullback_compiler::lower::Precision;
+    use pullback_tests::accuracy::evaluators::{Machine, Point, suite_gpu};
+    use pullback_tests::calculus::formula;
+
+    let Some(gpu) = suite_gpu() else { return };
+    let machine = Machine::Gpu(Box::new(gpu), Precision::Accurate);
+    let mut wrong = Vec::new();
+    for &(derived, closed) in [POLYNOMIALS, RULES, PRIMES, SCOPES, FIELDS, LOOPS]
+        .into_iter()
+        .flatten()
+    {
+        if derived.contains("time") {
+            // the suites' GPU has its clock at 0
+            continue;
+        }
+        let (formula, params) = formula(derived).unwrap_or_else(|e| panic!("{e}"));
+        let width = formula.columns().len();
+        let points: Vec<Point> = Points::Plane
+            .rows()
+            .iter()
+            .map(|row| Point {
+                args: row[..width].iter().map(|&x| f64::from(x as f32)).collect(),
+                params: params.clone(),
+            })
+            .collect();
+        let found = machine.run(&formula, What::Value, &points);
+        let found = found.unwrap_or_else(|e| panic!("{derived}: {e}"));
+        let expected = values(closed, Points::Plane).unwrap_or_else(|e| panic!("{e}"));
+        wrong.extend(
+            close_to(&found, &expected, GPU_BOUND).map(|at| format!("{derived}\n    {at}")),
+        );
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

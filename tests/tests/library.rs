@@ -174,6 +174,54 @@ fn the_hash_is_the_same_on_the_gpu() {
     drop(gpu);
 }
 
+/// Far from the origin as near it: the absolute error of value and gradient in float32 up to 2^20, against the reference
+/// at the same float32 arguments. Octaves are not among these: each doubles the error of its coordinates.
+#[test]
+fn noise_is_as_good_far_away() {
+    let Some(gpu) = suite_gpu() else { return };
+    let gpu = Machine::Gpu(Box::new(gpu), Precision::Accurate);
+    for (source, arity, value, gradient) in [
+        ("f(x: real) = noise(x)", 1, 4e-7, 1.5e-6),
+        ("f(p: vec2) = noise(p)", 2, 4e-7, 1.5e-6),
+        ("f(p: vec3) = noise(p)", 3, 4e-7, 1.5e-6),
+        ("f(p: vec3) = value_noise(p)", 3, 4e-7, 1.5e-6),
+        ("f(p: vec2) = cellular(p)", 2, 4e-7, 1.5e-6),
+        ("f(p: vec3) = cellular(p)", 3, 4e-7, 1.5e-6),
+    ] {
+        let count = if source.contains("cellular") {
+            1500
+        } else {
+            6000
+        };
+        let mut numbers = Numbers(5);
+        let mut coordinate = |k: i32| f64::from(numbers.within(2f64.powi(k % 21)) as f32);
+        let points: Vec<Point> = (0..count)
+            .map(|k| at((0..arity).map(|_| coordinate(k)).collect::<Vec<_>>()))
+            .collect();
+        let wanted = run(source, What::Gradient, &points);
+        let found = gpu.run(&formula(source), What::Gradient, &points).unwrap();
+        let (mut worst, mut steepest, mut sides) = (0.0_f64, 0.0_f64, 0);
+        for (a, b) in wanted.iter().zip(&found) {
+            let slopes = a[1..].iter().zip(&b[1..]).map(|(a, b)| (a - b).abs());
+            let slopes = slopes.fold(0.0, |m: f64, d| if d.is_nan() { d } else { m.max(d) });
+            worst = worst.max((a[0] - b[0]).abs());
+            // beside the border of two regions float32 may see the other one
+            if source.contains("cellular") && slopes > 1e-3 {
+                sides += 1;
+                continue;
+            }
+            assert!(slopes.is_finite(), "{source}: {a:?}, {b:?}");
+            steepest = steepest.max(slopes);
+        }
+        println!("{source}: {worst:e}, {steepest:e}, {sides} on another side");
+        assert!(
+            worst <= value && steepest <= gradient,
+            "{source}: {worst:e}, {steepest:e}"
+        );
+        assert!(sides <= 4, "{source}: {sides}");
+    }
+}
+
 #[test]
 fn noise_keeps_its_range() {
     // what no point may leave, and what some point has to reach
@@ -323,10 +371,10 @@ fn noise_has_continuous_second_derivatives() {
 #[test]
 fn noise_stays_small() {
     for (source, value, second) in [
-        ("f(p: vec2) = noise(p)", 116, 160),
-        ("f(p: vec3) = noise(p)", 254, 400),
-        ("f(p: vec3) = fbm(p)", 306, 720),
-        ("f(p: vec3) = cellular(p)", 200, 2500),
+        ("f(p: vec2) = noise(p)", 120, 165),
+        ("f(p: vec3) = noise(p)", 260, 370),
+        ("f(p: vec3) = fbm(p)", 315, 750),
+        ("f(p: vec3) = cellular(p)", 130, 205),
     ] {
         let formula = formula(source);
         let (graph, _) = formula.graph.compacted(&formula.value);

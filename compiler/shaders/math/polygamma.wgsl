@@ -19,16 +19,26 @@ fn small_power(r: f32, n: i32) -> f32 {
     return product;
 }
 
-/// Factor k of the asymptotic series, B(2k)/(2k)! s (s + 1) … (s + 2k - 2) with s = n + 1, k = 1 … 6.
-fn zeta_factors(n: i32) -> array<f32, 6> {
-    var factors = array<f32, 6>(0.083333333, -0.0013888889, 3.3068783e-5, -8.2671958e-7, 2.0876757e-8, -5.2841901e-10);
+/// Factors of an asymptotic series.
+struct ZetaFactors {
+    /// Of 1, w and w².
+    low: vec3f,
+    /// Of w³, w⁴ and w⁵.
+    high: vec3f,
+}
+
+/// B(2k)/(2k)! s (s + 1) … (s + 2k - 2) with s = n + 1, k = 1 … 6.
+fn zeta_factors(n: i32) -> ZetaFactors {
     let s = f32(n) + 1.0;
-    var rising = s;
-    for (var k = 0; k < 6; k++) {
-        factors[k] *= rising;
-        rising *= (s + f32(2 * k + 1)) * (s + f32(2 * k + 2));
-    }
-    return factors;
+    let second = s * (s + 1.0) * (s + 2.0);
+    let third = second * (s + 3.0) * (s + 4.0);
+    let fourth = third * (s + 5.0) * (s + 6.0);
+    let fifth = fourth * (s + 7.0) * (s + 8.0);
+    let sixth = fifth * (s + 9.0) * (s + 10.0);
+    return ZetaFactors(
+        vec3f(0.083333333, -0.0013888889, 3.3068783e-5) * vec3f(s, second, third),
+        vec3f(-8.2671958e-7, 2.0876757e-8, -5.2841901e-10) * vec3f(fourth, fifth, sixth),
+    );
 }
 
 /// ζ(n + 1, x + first) for x ≥ 0.
@@ -42,7 +52,7 @@ fn real_zeta(n: i32, x: f32, first: f32) -> f32 {
     let r = 1.0 / (x + steps);
     let w = r * r;
     let c = zeta_factors(n);
-    let series = c[0] + w * (c[1] + w * (c[2] + w * (c[3] + w * (c[4] + w * c[5]))));
+    let series = c.low.x + w * (c.low.y + w * (c.low.z + w * (c.high.x + w * (c.high.y + w * c.high.z))));
     return sum + small_power(r, n) * (1.0 / f32(n) + r * (0.5 + r * series));
 }
 
@@ -109,10 +119,11 @@ fn complex_zeta(n: i32, z: vec2f, first: f32) -> vec2f {
     let r = complex_inverse(z + vec2f(steps, 0.0));
     let w = complex_square(r);
     let c = zeta_factors(n);
-    var series = vec2f(c[5], 0.0);
-    for (var k = 4; k >= 0; k--) {
-        series = vec2f(c[k], 0.0) + complex_mul(w, series);
-    }
+    var series = vec2f(c.high.y, 0.0) + w * c.high.z;
+    series = vec2f(c.high.x, 0.0) + complex_mul(w, series);
+    series = vec2f(c.low.z, 0.0) + complex_mul(w, series);
+    series = vec2f(c.low.y, 0.0) + complex_mul(w, series);
+    series = vec2f(c.low.x, 0.0) + complex_mul(w, series);
     let near = vec2f(1.0 / f32(n), 0.0) + complex_mul(r, vec2f(0.5, 0.0) + complex_mul(r, series));
     return sum + complex_mul(complex_small_power(r, n), near);
 }

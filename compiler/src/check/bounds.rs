@@ -304,3 +304,57 @@ impl Query<'_> {
         (sum.terms.len() <= MAX_TERMS).then_some(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn leaf(graph: &mut Graph, k: u16) -> Id {
+        graph.leaf(Op::Param(k), Ty::Real)
+    }
+
+    fn interval(lo: f64, hi: f64, nan: bool) -> Interval {
+        Interval { lo, hi, nan }
+    }
+
+    #[test]
+    fn ranges_of_parameters_bound_what_is_made_of_them() {
+        let mut g = Graph::new();
+        let bounds = Bounds {
+            params: vec![Some((-2.0, 3.0)), None],
+            ..Bounds::default()
+        };
+        let (n, open) = (leaf(&mut g, 0), leaf(&mut g, 1));
+        let two = g.real(2.0);
+        let doubled = g.mul(n, two);
+        let half = g.div(doubled, two);
+        let same = g.sub(doubled, n);
+        let size = g.apply(Prim::Abs, &[n]);
+        let capped = g.apply(Prim::Min, &[open, two]);
+        for (id, want) in [
+            (doubled, interval(-4.0, 6.0, false)),
+            (half, interval(-2.0, 3.0, false)),
+            (same, interval(-2.0, 3.0, false)),
+            (size, interval(0.0, 3.0, false)),
+            (open, ANY),
+            (capped, interval(f64::NEG_INFINITY, 2.0, false)),
+        ] {
+            assert_eq!(bounds.of(&g, id, true), want);
+        }
+        // a parameter can be set outside of its range
+        assert_eq!(bounds.of(&g, n, false), ANY);
+        assert_eq!(bounds.of(&g, capped, false).hi, 2.0);
+    }
+
+    #[test]
+    fn differences_that_are_always_the_same_are_found() {
+        let mut g = Graph::new();
+        let bounds = Bounds::default();
+        let (x, y) = (leaf(&mut g, 0), leaf(&mut g, 1));
+        let five = g.real(5.0);
+        let (sum, shifted) = (g.add(x, y), g.add(x, five));
+        let moved = g.add(shifted, y);
+        assert_eq!(bounds.difference(&g, moved, sum), Some(5.0));
+        assert_eq!(bounds.difference(&g, shifted, sum), None);
+    }
+}

@@ -310,11 +310,9 @@ impl<'a> Builder<'a> {
             return self.report(problem);
         }
         if !found.is_empty() && self.is_undefined(&value) {
-            self.diagnostics.push(Diagnostic::warning(
-                "outside-domain",
-                span,
-                format!("`{}` of these constants is not a number", function.name),
-            ));
+            let message = format!("`{}` of these constants is not a number", function.name);
+            let problem = Diagnostic::warning("outside-domain", span, message);
+            self.diagnostics.push(problem.with_hint(written(function)));
         } else if value != Value::Error {
             let known = Known {
                 value: value.clone(),
@@ -348,12 +346,16 @@ fn at_call(
             ..problem.clone()
         };
     }
-    let hint = if function.is_generic() {
+    does_not_take(function.name, types, span).with_hint(written(function))
+}
+
+/// What a definition takes: where it takes anything, the definition itself says.
+fn written(function: &LibraryFunction) -> String {
+    if function.is_generic() {
         format!("it is defined as {}", function.definition)
     } else {
         format!("it is written `{}`", function.usage)
-    };
-    does_not_take(function.name, types, span).with_hint(hint)
+    }
 }
 
 fn does_not_take(name: &str, types: &[Type], span: Span) -> Diagnostic {

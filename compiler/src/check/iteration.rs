@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use super::nesting::{Extent, open_param};
 use super::suggest::{quoted, shortened};
 use super::{Builder, MAX_STEPS, Record, Value};
-use crate::ir::{Binder, Id, Loop, Prim, State, Ty};
+use crate::ir::{Binder, Id, Loop, Op, Prim, State, Ty};
 use crate::types::Type;
 
 /// Greatest number of times that the steps of an iteration are built, until the types of its states are settled.
@@ -63,6 +63,9 @@ impl<'a> Builder<'a> {
         }
         let binder = self.graph.binder();
         let running = lower.map(|a| self.running(a, binder));
+        if let Some(leaf) = running.filter(|&id| matches!(self.graph.node(id).op, Op::Counter(_))) {
+            self.graph.set_name(leaf, &range.name.text);
+        }
         let running = running.map_or(Value::Error, Value::Scalar);
         let before = self.nesting.enter(limit);
         self.bounds.limits.insert(binder, limit);

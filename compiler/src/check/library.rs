@@ -10,7 +10,8 @@ use pullback_grammar::Parsed;
 use pullback_grammar::ast::{File, Function, Item, Name};
 use rustc_hash::FxHashMap;
 
-use super::{builtins, signature};
+use super::builtins;
+use super::names::whole_signature;
 use crate::table;
 use crate::types::Type;
 
@@ -79,7 +80,7 @@ fn definitions() -> &'static [LibraryFunction] {
             functions.push(LibraryFunction {
                 name: &function.name.text,
                 doc: comment.strip_prefix("//").unwrap_or("").trim(),
-                usage: signature(function),
+                usage: whole_signature(function),
                 definition: function.span.text(SOURCE),
                 function,
                 types: function

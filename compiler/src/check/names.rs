@@ -493,8 +493,13 @@ pub fn listed<S: AsRef<str>>(items: &[S]) -> String {
     out
 }
 
-/// `name(a, b: complex)`
+/// `name(a, b: complex)`, cut where it is long.
 pub fn signature(function: &Function) -> String {
+    shortened(&whole_signature(function))
+}
+
+/// `name(a, b: complex)`
+pub fn whole_signature(function: &Function) -> String {
     let params: Vec<String> = function
         .params
         .iter()
@@ -503,7 +508,7 @@ pub fn signature(function: &Function) -> String {
             None => p.name.text.clone(),
         })
         .collect();
-    shortened(&format!("{}({})", function.name.text, params.join(", ")))
+    format!("{}({})", function.name.text, params.join(", "))
 }
 
 fn wrong_arity(callee: &Name, given: usize, expected: &str, usage: &str) -> Diagnostic {

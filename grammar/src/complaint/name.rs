@@ -66,14 +66,6 @@ impl Parser<'_> {
 
     /// The `=` of a definition.
     pub(crate) fn expect_equals(&mut self) {
-        if self.at(TokenKind::Colon) && self.ahead(1) == TokenKind::Equals {
-            let span = self.span().join(self.span_ahead(1));
-            self.complain(
-                Diagnostic::error("colon-equals", span, "`:=` in a definition")
-                    .with_hint("write `=`"),
-            );
-            self.bump();
-        }
         if !self.eat(TokenKind::Equals) {
             let message = format!("missing `=` before {}", self.describe());
             let span = self.span();
@@ -110,7 +102,7 @@ impl Parser<'_> {
     /// The annotation of a formal parameter.
     pub(crate) fn expect_type(&mut self) -> Option<Name> {
         if self.at(TokenKind::Name) {
-            return Some(self.bump_name());
+            return Some(self.bump_type());
         }
         let message = format!("missing type before {}", self.describe());
         let span = self.span();

@@ -274,31 +274,5 @@ fn is_loop(word: &str) -> bool {
 
 /// Words with which definitions begin in other languages.
 fn is_foreign_word(word: &str) -> bool {
-    matches!(
-        word,
-        "let"
-            | "var"
-            | "const"
-            | "def"
-            | "define"
-            | "fn"
-            | "fun"
-            | "func"
-            | "function"
-            | "set"
-            | "val"
-            | "float"
-            | "double"
-            | "int"
-            | "real"
-            | "complex"
-            | "vec2"
-            | "vec3"
-            | "vec4"
-            | "uniform"
-            | "parameter"
-            | "slider"
-            | "global"
-            | "local"
-    )
+    matches!(word, "int" | "uniform" | "parameter" | "slider" | "global")
 }

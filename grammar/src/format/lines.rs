@@ -33,14 +33,25 @@ const LEVELS: [Break; 9] = [
 
 /// The lines of a statement; nothing where a comment stands at a place where no line can end.
 pub(super) fn lines(run: &[Piece<'_>]) -> Option<String> {
-    let mut writer = Writer {
-        out: String::new(),
-        column: 0,
-        is_fresh: true,
-        has_lost: false,
-    };
-    writer.item(run, 0, 0);
-    (!writer.has_lost).then_some(writer.out)
+    loop {
+        let mut writer = Writer {
+            out: String::new(),
+            column: 0,
+            is_fresh: true,
+            has_lost: false,
+            has_broken: false,
+        };
+        writer.item(run, 0, 0);
+        if writer.has_lost {
+            return None;
+        }
+        if !writer.has_broken {
+            return Some(writer.out);
+        }
+        // Once broken, braces and locals are as if the author had broken them. What is around them may then stand
+        // otherwise, and does so at once, so that the canonical text is its own canonical text.
+        Piece::settle(run);
+    }
 }
 
 struct Writer {
@@ -51,6 +62,8 @@ struct Writer {
     is_fresh: bool,
     /// Whether a comment had no place.
     has_lost: bool,
+    /// Whether braces or locals were broken that had not been so before.
+    has_broken: bool,
 }
 
 /// Where lines begin that go on: those of operators, and those inside of brackets, relative to these columns.
@@ -91,9 +104,10 @@ impl Writer {
         let Some((word, locals)) = part.split_first() else {
             return;
         };
-        if !word.starts_line && self.line_closes() && self.fits(part, tail) {
+        if !word.must_break.get() && self.line_closes() && self.fits(part, tail) {
             return self.flat(part);
         }
+        self.breaks_for_good(word);
         self.line(base + STEP, &word.notes);
         self.flat(std::slice::from_ref(word));
         let base = base + STEP + WHERE;
@@ -199,6 +213,9 @@ impl Writer {
     /// Brackets with one item a line; bars around an expression.
     fn group(&mut self, piece: &Piece<'_>, group: &Group<'_>, base: usize) {
         self.open(piece);
+        if piece.kind == TokenKind::LBrace {
+            self.breaks_for_good(piece);
+        }
         if piece.kind == TokenKind::Bar {
             self.expression(&group.run, 0, Base::at(base), 1);
             return self.text(group.close);
@@ -220,6 +237,10 @@ impl Writer {
         self.text(group.close);
     }
 
+    fn breaks_for_good(&mut self, piece: &Piece<'_>) {
+        self.has_broken |= !piece.must_break.replace(true);
+    }
+
     /// Whether these pieces fit on the rest of the line, with `tail` columns behind them.
     fn fits(&self, run: &[Piece<'_>], tail: usize) -> bool {
         let Some((first, others)) = run.split_first() else {
@@ -228,7 +249,7 @@ impl Writer {
         let blank = usize::from(first.blank && !self.is_fresh);
         // The comments before the first of a line have been written.
         let has_notes = !first.notes.is_empty() && !self.is_fresh;
-        !(first.must_break || has_notes || others.iter().any(Piece::breaks))
+        !(first.must_break.get() || has_notes || others.iter().any(Piece::breaks))
             && self.column + blank + width(run) + tail <= WIDTH
     }
 
@@ -237,7 +258,7 @@ impl Writer {
         let mut columns = self.column + tail;
         let mut has_open = false;
         for (index, piece) in run.iter().enumerate() {
-            let opens = piece.must_break && piece.group.is_some();
+            let opens = piece.must_break.get() && piece.group.is_some();
             if index > 0 && !piece.notes.is_empty() {
                 return false;
             }

@@ -1,23 +1,28 @@
 //! Source text to canonical text, with its comments.
 //!
 //! Tokens stay as they are written (`x²` or `x^2`, `≤` or `<=`, brackets for the reader): what is set is the blanks
-//! between them and where lines end.
+//! between them and where lines end. A statement with something in another notation is written anew.
 
 mod blanks;
+mod convert;
 mod lines;
 mod pieces;
 
+use std::collections::HashSet;
+
 use crate::Span;
-use crate::layout::layout;
-use crate::parse::parse;
-use crate::token::{TokenKind, comments, tokenize};
+use crate::ast::Item;
+use crate::parse::{Reading, read};
+use crate::token::{TokenKind, comments};
+use convert::Foreign;
 use pieces::{Roles, Source};
 
 /// The canonical text of a file with its comments and single blank lines; nothing where the file has errors.
 ///
 /// Each statement begins a line. One that is longer than 100 columns is broken: each local of a `where`, each term of
 /// a sum, each item of a list begins a line. A line break that the author has set before `where`, or behind the `{` of
-/// choices or settings, stays. A statement with a comment where no line can end is kept as it was written.
+/// choices or settings, stays. A statement with a comment where no line can end is kept as it was written; the
+/// comments of one in another notation come before it.
 ///
 /// ```
 /// let text = "f( x,y )=2x^2+y ;show levels(f){height=4,}";
@@ -26,15 +31,40 @@ use pieces::{Roles, Source};
 /// ```
 #[must_use]
 pub fn format(text: &str, is_function: &dyn Fn(&str) -> bool) -> Option<String> {
-    let parsed = parse(text, is_function);
-    if parsed.has_errors() {
+    let reading = read(text, is_function);
+    if reading.parsed.has_errors() {
         return None;
     }
-    let (tokens, _) = tokenize(text);
+    let file = &reading.parsed.file;
+    let defined: HashSet<&str> = file.items.iter().filter_map(function_name).collect();
+    let is_known = |name: &str| is_function(name) || defined.contains(name);
+    Some(write(text, &reading, &|item| {
+        convert::lines(&file.exprs, item, &is_known)
+    }))
+}
+
+/// The name of the function that a statement defines.
+fn function_name(item: &Item) -> Option<&str> {
+    match item {
+        Item::Function(function) => Some(&function.name.text),
+        _ => None,
+    }
+}
+
+/// The canonical text of a text without other notations.
+fn unconverted(text: &str, is_function: &dyn Fn(&str) -> bool) -> Option<String> {
+    let reading = read(text, is_function);
+    let is_ours = !reading.parsed.has_errors() && reading.foreign.is_empty();
+    is_ours.then(|| write(text, &reading, &|_| String::new()))
+}
+
+/// The canonical text of what has been read; `convert` writes a statement anew.
+fn write(text: &str, reading: &Reading, convert: &dyn Fn(&Item) -> String) -> String {
     let source = Source {
         text,
-        roles: Roles::of(&parsed.file.exprs),
+        roles: Roles::of(&reading.parsed.file.exprs),
     };
+    let mut foreign = Foreign::new(text, &reading.foreign);
     let comments = comments(text);
     let mut rest = comments.as_slice();
     let mut page = Page {
@@ -43,19 +73,37 @@ pub fn format(text: &str, is_function: &dyn Fn(&str) -> bool) -> Option<String> 
         read: 0,
         statement: None,
     };
-    for statement in &layout(&tokens).statements {
-        let tokens = tokens.get(statement.start..statement.end);
+    let statements = &reading.layout.statements;
+    let items = &reading.parsed.file.items;
+    for (index, (statement, item)) in statements.iter().zip(items).enumerate() {
+        let tokens = reading.tokens.get(statement.start..statement.end);
         let tokens = tokens.unwrap_or_default();
-        let (Some(first), Some(last)) = (tokens.first(), tokens.last()) else {
+        let Some(first) = tokens.first() else {
             continue;
         };
-        let span = first.span.join(last.span);
+        let next = statements.get(index + 1).and_then(|next| {
+            let token = reading.tokens.get(next.start);
+            token.map(|token| token.span.start)
+        });
+        let spans = tokens.iter().map(|token| token.span);
+        let own = spans.reduce(Span::join).unwrap_or_default();
+        let converted = foreign.extent(own, next.unwrap_or(u32::MAX));
+        let span = converted.unwrap_or(own);
         let before = rest.partition_point(|comment| comment.start < span.start);
         let (outside, others) = rest.split_at(before);
         outside.iter().for_each(|comment| page.comment(*comment));
         let (inside, others) =
             others.split_at(others.partition_point(|comment| comment.start < span.end));
         rest = others;
+        if converted.is_some() {
+            inside
+                .iter()
+                .for_each(|comment| page.comment_alone(*comment));
+            let lines = convert(item);
+            let has_sign = lines.starts_with(['-', '+']);
+            page.statement(&lines, span, has_sign);
+            continue;
+        }
         let pieces = source.pieces(tokens, statement.kind, inside);
         let lines = pieces.and_then(|pieces| lines::lines(&pieces));
         let has_sign = matches!(first.kind, TokenKind::Minus | TokenKind::Plus);
@@ -69,7 +117,7 @@ pub fn format(text: &str, is_function: &dyn Fn(&str) -> bool) -> Option<String> 
     if !page.out.is_empty() {
         page.out.push('\n');
     }
-    Some(page.out)
+    page.out
 }
 
 /// The lines of a text without blanks at their ends.
@@ -107,6 +155,13 @@ impl Page<'_> {
         } else {
             self.begin_line(comment);
         }
+        self.out.push_str(&tidy(comment.text(self.text)));
+        self.read = comment.end as usize;
+    }
+
+    /// Writes a comment on a line of its own.
+    fn comment_alone(&mut self, comment: Span) {
+        self.begin_line(comment);
         self.out.push_str(&tidy(comment.text(self.text)));
         self.read = comment.end as usize;
     }

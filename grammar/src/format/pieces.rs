@@ -1,5 +1,6 @@
 //! A statement as nested runs of tokens, with the blanks between them and the comments before them.
 
+use std::cell::Cell;
 use std::collections::HashSet;
 
 use super::blanks::{Place, blank_between, even_out_division};
@@ -28,8 +29,6 @@ pub(super) struct Piece<'a> {
     pub(super) blank: bool,
     /// Whether it stands between two operands.
     pub(super) is_infix: bool,
-    /// Whether the author began a line with it.
-    pub(super) starts_line: bool,
     /// The comments before it.
     pub(super) notes: Vec<Note<'a>>,
     /// What is inside of the brackets.
@@ -37,13 +36,25 @@ pub(super) struct Piece<'a> {
     /// Columns on one line, without the blank before it.
     pub(super) width: usize,
     /// Whether the brackets cannot stand on one line, or the locals of a `where` on one with what is before them.
-    pub(super) must_break: bool,
+    /// Braces and locals that are broken are so for good: the author may have done it.
+    pub(super) must_break: Cell<bool>,
 }
 
 impl Piece<'_> {
     /// Whether it cannot be written on one line, even where a line has just begun.
     pub(super) fn breaks(&self) -> bool {
-        self.must_break || !self.notes.is_empty()
+        self.must_break.get() || !self.notes.is_empty()
+    }
+
+    /// Passes on to the brackets in a run what must break inside of them.
+    pub(super) fn settle(run: &[Piece<'_>]) {
+        for piece in run {
+            if let Some(group) = &piece.group {
+                Self::settle(&group.run);
+                let must_break = piece.must_break.get() || group.run.iter().any(Piece::breaks);
+                piece.must_break.set(must_break);
+            }
+        }
     }
 }
 
@@ -156,14 +167,14 @@ impl<'a> Source<'a> {
             }
             let ends_line = next.is_some_and(|next| next.starts_line);
             let is_infix = place == Place::Infix;
-            let starts_line = token.starts_line || (token.kind == TokenKind::Where && ends_line);
             let piece = Piece {
                 kind: token.kind,
                 text,
                 blank,
                 is_infix,
-                starts_line,
-                must_break: token.kind == TokenKind::Where && starts_line,
+                must_break: Cell::new(
+                    token.kind == TokenKind::Where && (token.starts_line || ends_line),
+                ),
                 notes,
                 group: None,
                 width: text.chars().count(),
@@ -243,7 +254,7 @@ fn close<'a>(
         notes,
         run,
     };
-    piece.must_break |= must_break;
+    piece.must_break.set(must_break);
     piece.width += width(&group.run) + 1 + if group.is_padded() { 2 } else { 0 };
     piece.group = Some(Box::new(group));
     outer.push(piece);

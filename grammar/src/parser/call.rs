@@ -36,7 +36,7 @@ impl Parser<'_> {
                 }
                 let span = callee.span.join(self.last_span());
                 let expr = Expr::Call {
-                    callee,
+                    callee: self.by_arguments(callee, args.len()),
                     primes,
                     args,
                 };

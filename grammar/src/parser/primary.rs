@@ -2,6 +2,7 @@
 
 use crate::ast::{Expr, UnaryOp};
 use crate::cursor::{Node, Parser};
+use crate::paste::is_conversion;
 use crate::scope::Role;
 use crate::token::TokenKind;
 
@@ -23,7 +24,7 @@ impl Parser<'_> {
     fn number(&mut self) -> Node {
         let is_imaginary = self.at(TokenKind::Imaginary);
         let span = self.span();
-        let value = self.value_of(span.text(self.text));
+        let value = self.value_of(self.spelling(span));
         self.bump();
         let expr = if is_imaginary {
             Expr::Imaginary(value)
@@ -35,11 +36,14 @@ impl Parser<'_> {
 
     /// `name = NAME | call | barred`
     fn name(&mut self) -> Node {
-        let name = self.bump_name();
+        let mut name = self.bump_name();
         let is_adjacent = name.span.end == self.span().start;
         let primes = self.primes();
         let opens = self.at(TokenKind::LParen);
-        match self.role_of(&name) {
+        match self.role_of(&mut name) {
+            Role::Unknown if opens && is_adjacent && is_conversion(&name.text) => {
+                self.conversion(&name)
+            }
             Role::Function if self.at(TokenKind::Bar) && self.form_of(&name).is_none() => {
                 self.barred(name, primes)
             }

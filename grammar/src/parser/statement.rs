@@ -27,7 +27,7 @@ impl Parser<'_> {
             StatementKind::Formula => Item::Formula(self.formula()),
         };
         self.skip_leftovers();
-        let whole = start.join(self.last_span());
+        let whole = self.spread(found).join(start.join(self.last_span()));
         *match &mut item {
             Item::Function(item) => &mut item.span,
             Item::Constant(item) => &mut item.span,
@@ -54,9 +54,8 @@ impl Parser<'_> {
             }
         }
         self.expect_equals();
-        let text = self.text;
         for param in &params {
-            self.scope.bind(param.name.span.text(text));
+            self.scope.bind(self.spelling(param.name.span));
         }
         let body = self.expr();
         for param in &params {

@@ -6,6 +6,7 @@ pub mod fixture;
 pub mod generate;
 
 use pullback_grammar::ast::{Expr, ExprId, File, Item, Name, Range};
+use pullback_grammar::token::{TokenKind, tokenize};
 use pullback_grammar::{Parsed, Span, parse};
 
 /// Builtin functions, as far as these tests need them.
@@ -28,7 +29,25 @@ pub fn is_function(name: &str) -> bool {
             | "noise"
             | "re"
             | "im"
+            | "vec2"
             | "vec3"
+            | "vec4"
+            | "asinh"
+            | "atan2"
+            | "cbrt"
+            | "ceil"
+            | "clamp"
+            | "conj"
+            | "cosh"
+            | "cot"
+            | "floor"
+            | "heaviside"
+            | "inversesqrt"
+            | "log10"
+            | "log2"
+            | "pow"
+            | "sign"
+            | "sinh"
     )
 }
 
@@ -179,6 +198,12 @@ pub fn show(file: &File, id: ExprId) -> String {
     }
 }
 
+/// Whether a name that stands for another notation can be written in this language.
+fn is_name(name: &str) -> bool {
+    let (tokens, problems) = tokenize(name);
+    problems.is_empty() && matches!(tokens.as_slice(), [only] if only.kind == TokenKind::Name)
+}
+
 /// Holds what every tree and every complaint has: spans inside of the text and on characters, operands before
 /// their users and inside of them, expressions inside of their statements.
 pub fn check_structure(text: &str, parsed: &Parsed) {
@@ -197,7 +222,11 @@ pub fn check_structure(text: &str, parsed: &Parsed) {
     };
     let named = |outer: Span, name: &Name| {
         within(outer, name.span);
-        assert_eq!(name.span.text(text), name.text);
+        let written = name.span.text(text);
+        assert!(
+            written == name.text || is_name(&name.text),
+            "{written:?} is no name in {text:?}"
+        );
     };
     let file = &parsed.file;
     for (id, expr, span) in file.exprs.iter() {
