@@ -95,13 +95,17 @@ class Num:
         self.e = min(self.e, bound)
         return self.e
 
+    def rounding(self, o, v):
+        """What rounding v adds: nothing where both operands are exact, and float32 holds the result."""
+        return mp.mpf(0) if not self.e and not o.e and exact_in_single(v) else abs(v)
+
     def add(self, o):
         v = self.v + o.v
-        return Num(v, abs(v), ((self, mp.mpf(1), "linear"), (o, mp.mpf(1), "linear")))
+        return Num(v, self.rounding(o, v), ((self, mp.mpf(1), "linear"), (o, mp.mpf(1), "linear")))
 
     def mul(self, o):
         v = self.v * o.v
-        result = Num(v, abs(v), ((self, o.v, "linear"), (o, self.v, "linear")))
+        result = Num(v, self.rounding(o, v), ((self, o.v, "linear"), (o, self.v, "linear")))
         if self.e and o.e:
             # the product of both errors, against what is of first order
             Run.limit(lambda: self.e * o.e / result.e / 4 if result.e else mp.mpf(0), (self, o))
@@ -111,7 +115,7 @@ class Num:
         v = self.v / o.v
         if o.e:
             Run.limit(lambda: o.e / abs(o.v), (o,))
-        return Num(v, abs(v), ((self, 1 / o.v, "linear"), (o, -v / o.v, "linear")))
+        return Num(v, self.rounding(o, v), ((self, 1 / o.v, "linear"), (o, -v / o.v, "linear")))
 
     def neg(self):
         return Num(-self.v, 0, ((self, mp.mpf(-1), "linear"),))
@@ -380,7 +384,8 @@ def hypot(*xs):
     jet = next(x for x in xs if isinstance(x, Jet))
     xs = [jet.lift(x) for x in xs]
     r = mp.sqrt(mp.fsum(x.a.v**2 for x in xs))
-    length = Num(r, r, tuple((x.a, x.a.v / r if r else mp.mpf(1), "linear") for x in xs))
+    on_axis = not any(x.a.e for x in xs) and sum(x.a.v != 0 for x in xs) <= 1
+    length = Num(r, 0 if on_axis and exact_in_single(r) else r, tuple((x.a, x.a.v / r if r else mp.mpf(1), "linear") for x in xs))
     if not r:
         return jet.constant(length)
     # as it is computed: r' = Σ x x' / r, r'' = (Σ (x'² + x x'') - r'²) / r
@@ -404,7 +409,8 @@ def modulus(z):
         return abs(z)
     v = abs(z.a.v)
     # |z + δ| moves by Re(z̄ δ)/|z|
-    size = Num(v, v, ((z.a, mp.conj(z.a.v) / v, "linear"),) if v else ((z.a, mp.mpf(1), "linear"),))
+    on_axis = not z.a.e and 0 in (mp.re(z.a.v), mp.im(z.a.v)) and exact_in_single(v)
+    size = Num(v, 0 if on_axis else v, ((z.a, mp.conj(z.a.v) / v, "linear"),) if v else ((z.a, mp.mpf(1), "linear"),))
     if z.mode == "holomorphic":
         return z.constant(size)
     if z.mode == "real":
