@@ -65,6 +65,21 @@ impl Exprs {
             .map(|(index, (expr, span))| (ExprId(index), expr, *span))
     }
 
+    /// The items of the one step of several states, `(z², 2 z d + w) where w = …`: a list with local names.
+    #[must_use]
+    pub fn joint_step(&self, steps: &[ExprId], states: usize) -> Option<&[ExprId]> {
+        let (&[mut step], 2..) = (steps, states) else {
+            return None;
+        };
+        while let Expr::Where { body, .. } = self[step] {
+            step = body;
+        }
+        match &self[step] {
+            Expr::Vector(items) if items.len() == states => Some(items),
+            _ => None,
+        }
+    }
+
     /// Where the expression stands in the text.
     #[must_use]
     pub fn span(&self, id: ExprId) -> Span {
@@ -286,7 +301,8 @@ pub enum Expr {
         count: ExprId,
         /// Names of the states with their values at the start; never empty. A start does not see the states.
         states: Vec<(Name, ExprId)>,
-        /// The next value of each state in order, each in the values before the step. As many as there are states.
+        /// The next value of each state in order, each in the values before the step. As many as there are states, or
+        /// one that has as many items: see [`Exprs::joint_step`].
         steps: Vec<ExprId>,
         /// Tested before each step; where it holds, the iteration ends.
         until: Option<ExprId>,

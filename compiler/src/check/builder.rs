@@ -241,15 +241,37 @@ impl<'a> Builder<'a> {
 
     fn locals(&mut self, body: ExprId, locals: &'a [Local], span: Span) -> Value {
         let (depth, bound) = (self.scope.len(), self.bound());
+        self.bind_locals(locals, span);
+        let mut value = self.any(body);
+        self.scope.truncate(depth);
+        self.release(bound, std::slice::from_mut(&mut value));
+        value
+    }
+
+    /// The items of a list with local names behind it.
+    pub(super) fn items(&mut self, id: ExprId) -> Vec<Value> {
+        let file = self.file;
+        match &file.exprs[id] {
+            Expr::Where { body, locals } => {
+                let span = file.exprs.span(id);
+                let (depth, bound) = (self.scope.len(), self.bound());
+                self.bind_locals(locals, span);
+                let mut values = self.items(*body);
+                self.scope.truncate(depth);
+                self.release(bound, &mut values);
+                values
+            }
+            Expr::Vector(items) => items.iter().map(|&item| self.expr(item)).collect(),
+            _ => vec![self.expr(id)],
+        }
+    }
+
+    fn bind_locals(&mut self, locals: &'a [Local], span: Span) {
         for local in locals {
             let value = self.local(local);
             self.name_value(&local.name.text, &value);
             self.bind_local(&local.name.text, value, span);
         }
-        let mut value = self.any(body);
-        self.scope.truncate(depth);
-        self.release(bound, std::slice::from_mut(&mut value));
-        value
     }
 
     /// Remembers the user's name for a computed value.

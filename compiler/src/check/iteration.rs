@@ -228,7 +228,10 @@ impl<'a> Builder<'a> {
         for ((name, _), leaf) in it.states.iter().zip(&leaves) {
             self.scope.push(&name.text, leaf.clone());
         }
-        let nexts = it.steps.iter().map(|&step| self.expr(step)).collect();
+        let nexts = match it.steps {
+            [joint] if it.states.len() > 1 => self.items(*joint),
+            steps => steps.iter().map(|&step| self.expr(step)).collect(),
+        };
         let until = match it.until {
             Some(until) => self.ending(until),
             None => Value::Error,
@@ -288,7 +291,9 @@ impl<'a> Builder<'a> {
     fn settled(&mut self, it: &Iteration<'a>, mut body: Body) -> Option<Body> {
         let mut fits = it.until.is_none() || body.until != Value::Error;
         let parts = body.starts.iter().zip(&mut body.nexts);
-        for (((name, start), step), (first, next)) in it.states.iter().zip(it.steps).zip(parts) {
+        let written = self.file.exprs.joint_step(it.steps, it.states.len());
+        let written = written.unwrap_or(it.steps);
+        for (((name, start), step), (first, next)) in it.states.iter().zip(written).zip(parts) {
             let (Some(was), Some(is)) = (first.ty(&self.graph), next.ty(&self.graph)) else {
                 fits = false;
                 continue;

@@ -32,7 +32,7 @@ impl Parser<'_> {
         let (Some((lhs, rhs)), Some(factors)) = (division.operands, division.factors) else {
             return;
         };
-        if self.warns_enough() {
+        if self.warns_enough() || self.is_spaced_as_read(lhs, rhs, factors) {
             return;
         }
         let (lhs_text, rhs_text, factors_text) =
@@ -49,5 +49,15 @@ impl Parser<'_> {
             .with_label(format!("read as `{read}`"))
             .with_hint(format!("write `{read}`, or `{other}` if that is meant")),
         );
+    }
+
+    /// `4/π sin(x)`: the division stands close, the product apart.
+    fn is_spaced_as_read(&self, lhs: Span, rhs: Span, factors: Span) -> bool {
+        let between = |from: Span, to: Span| Span {
+            start: from.end.min(to.start),
+            end: to.start,
+        };
+        let spaces = |place: Span| place.text(self.text).contains(char::is_whitespace);
+        !spaces(between(lhs, rhs)) && spaces(between(rhs, factors))
     }
 }

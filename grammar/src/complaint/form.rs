@@ -276,7 +276,9 @@ impl Parser<'_> {
             self.complain_missing_state(callee, count);
         } else if steps.is_empty() {
             self.complain_missing_step(callee, states);
-        } else if states.len() != steps.len() {
+        } else if states.len() != steps.len()
+            && self.exprs.joint_step(steps, states.len()).is_none()
+        {
             self.complain_step_count(states, steps);
         } else {
             return true;
@@ -327,10 +329,7 @@ impl Parser<'_> {
             plural(states.len(), "state"),
             plural(steps.len(), "step")
         );
-        let has_locals = matches!(steps, [only] if matches!(self.exprs[*only], Expr::Where { .. }));
-        let hint = if has_locals {
-            "give each step its own `where`".to_owned()
-        } else if states.len() == 1 {
+        let hint = if states.len() == 1 {
             "name a state for each step, or put brackets around the components of a vector"
                 .to_owned()
         } else {

@@ -247,7 +247,9 @@ pub fn check_structure(text: &str, parsed: &Parsed) {
                 ranges.iter().for_each(|range| named(span, &range.name));
             }
             Expr::Iterate { states, steps, .. } => {
-                assert!(!states.is_empty() && states.len() == steps.len());
+                let joint = parsed.file.exprs.joint_step(steps, states.len());
+                assert!(!states.is_empty());
+                assert!(states.len() == steps.len() || joint.is_some());
                 states.iter().for_each(|state| named(span, &state.0));
             }
             Expr::Integral { range, .. } => named(span, &range.name),
