@@ -503,7 +503,7 @@ fn chains_have_any_length() {
                 "{piece}"
             );
         }
-        let found = codes(&format!("{}x", "x/2 y * ".repeat(100_000)));
+        let found = codes(&format!("{}x", "x/2y * ".repeat(100_000)));
         assert_eq!(found.len(), 201);
     });
 }
