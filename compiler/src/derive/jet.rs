@@ -46,46 +46,10 @@ struct Tangent {
 /// # Errors
 /// An operation that depends on z has no derivative rule.
 pub fn jet(g: &mut Graph, root: Id, z: ComplexVariable) -> Result<Jet, NoDerivative> {
-    let live = g.reachable(&[root]);
-    let mut tangents = vec![Tangent::default(); live.len()];
-    let seeds = seeds(g, z);
-    if g.has_loops() {
-        seed_states(g, &live, &seeds, &mut tangents);
-    }
-    for (leaf, dz) in seeds {
-        tangents[leaf.index()].dz = Some(dz);
-    }
-    let mut extended: FxHashMap<Id, Id> = FxHashMap::default();
-    let ids: Vec<Id> = g.ids().take(live.len()).collect();
-    for id in ids {
-        let node = g.node(id).clone();
-        let prim = match node.op {
-            Op::Apply(prim) => prim,
-            Op::Loop { .. } if live[id.index()] => {
-                extend_loop(g, id, &live, &tangents, &mut extended);
-                continue;
-            }
-            Op::Result(_) if live[id.index()] => {
-                tangents[id.index()] = of_result(g, id, &tangents, &extended);
-                continue;
-            }
-            _ => continue,
-        };
-        let depends =
-            |a: &Id| tangents[a.index()].dz.is_some() || tangents[a.index()].dzbar.is_some();
-        if live[id.index()] && node.ty != Ty::Bool && node.args.iter().any(depends) {
-            tangents[id.index()] = Rule {
-                g,
-                node: &node,
-                value: id,
-                tangents: &tangents,
-            }
-            .tangent(prim)?;
-        }
-    }
+    let tangent = tangent_of(g, root, z)?;
     let zero = g.real(0.0);
-    let dz = tangents[root.index()].dz.unwrap_or(zero);
-    let dzbar = bar(g, root, tangents[root.index()]);
+    let dz = tangent.dz.unwrap_or(zero);
+    let dzbar = bar(g, root, tangent);
     let value = g.widen(root);
     Ok(Jet {
         value,
@@ -94,18 +58,138 @@ pub fn jet(g: &mut Graph, root: Id, z: ComplexVariable) -> Result<Jet, NoDerivat
     })
 }
 
-/// Gives the states of loops that depend on z leaves for their derivatives.
-fn seed_states(g: &mut Graph, live: &[bool], seeds: &[(Id, Id)], tangents: &mut [Tangent]) {
-    let leaves: Vec<Id> = seeds.iter().map(|seed| seed.0).collect();
-    let active = activity(g, live, &leaves);
-    let bar = conjugate_activity(g, live, &active);
-    for leaf in states(g, live, &active) {
-        let dz = g.tangent_state(leaf, seeds, DZ, Ty::Complex);
-        let dzbar = bar[leaf.index()].then(|| g.tangent_state(leaf, seeds, DZBAR, Ty::Complex));
-        tangents[leaf.index()] = Tangent {
-            dz: Some(dz),
-            dzbar,
+/// ∂f/∂z of a real function of z = x + i y, which holds both partial derivatives: (∂f/∂x - i ∂f/∂y)/2. `None` is an
+/// exact zero.
+///
+/// # Errors
+/// As [`jet`].
+pub fn wirtinger(g: &mut Graph, root: Id, x: Id, y: Id) -> Result<Option<Id>, NoDerivative> {
+    Ok(tangent_of(g, root, ComplexVariable::Parts(x, y))?.dz)
+}
+
+/// After so many rounds every state that may depend on z̄ is taken to.
+const MAX_ROUNDS: usize = 8;
+
+/// The derivatives of the root. Which states of loops depend on z̄ is found by trying: at first none is taken to, and as
+/// long as some turn out to, once more with these.
+fn tangent_of(g: &mut Graph, root: Id, z: ComplexVariable) -> Result<Tangent, NoDerivative> {
+    let live = g.reachable(&[root]);
+    let seeds = seeds(g, z);
+    let mut states_of_loops = Vec::new();
+    let mut general = vec![false; live.len()];
+    let mut all_general = Vec::new();
+    if g.has_loops() {
+        let leaves: Vec<Id> = seeds.iter().map(|seed| seed.0).collect();
+        let active = activity(g, &live, &leaves);
+        states_of_loops = states(g, &live, &active);
+        all_general = conjugate_activity(g, &live, &active);
+    }
+    for _ in 0..MAX_ROUNDS {
+        let mut attempt = Attempt {
+            live: &live,
+            tangents: seeded(g, &live, &seeds, &states_of_loops, &general),
+            extended: FxHashMap::default(),
+            further: Vec::new(),
         };
+        attempt.run(g)?;
+        if attempt.further.is_empty() {
+            return Ok(attempt.tangents[root.index()]);
+        }
+        for leaf in attempt.further {
+            general[leaf.index()] = true;
+        }
+    }
+    let mut attempt = Attempt {
+        live: &live,
+        tangents: seeded(g, &live, &seeds, &states_of_loops, &all_general),
+        extended: FxHashMap::default(),
+        further: Vec::new(),
+    };
+    attempt.run(g)?;
+    Ok(attempt.tangents[root.index()])
+}
+
+/// The tangents to begin with: of the leaves, and of the states of loops that depend on z.
+fn seeded(
+    g: &mut Graph,
+    live: &[bool],
+    seeds: &[(Id, Id)],
+    states: &[Id],
+    general: &[bool],
+) -> Vec<Tangent> {
+    let mut tangents = vec![Tangent::default(); live.len()];
+    for &leaf in states {
+        let dz = Some(g.tangent_state(leaf, seeds, DZ, Ty::Complex));
+        let is_general = general[leaf.index()];
+        let dzbar = is_general.then(|| g.tangent_state(leaf, seeds, DZBAR, Ty::Complex));
+        tangents[leaf.index()] = Tangent { dz, dzbar };
+    }
+    for &(leaf, dz) in seeds {
+        tangents[leaf.index()].dz = Some(dz);
+    }
+    tangents
+}
+
+/// One pass over the graph.
+struct Attempt<'a> {
+    live: &'a [bool],
+    tangents: Vec<Tangent>,
+    /// Each loop with the derivatives of its states.
+    extended: FxHashMap<Id, Id>,
+    /// States that were taken not to depend on z̄, and do.
+    further: Vec<Id>,
+}
+
+impl Attempt<'_> {
+    fn run(&mut self, g: &mut Graph) -> Result<(), NoDerivative> {
+        let ids: Vec<Id> = g.ids().take(self.live.len()).collect();
+        for id in ids {
+            if !self.live[id.index()] {
+                continue;
+            }
+            let node = g.node(id).clone();
+            let prim = match node.op {
+                Op::Apply(prim) => prim,
+                Op::Loop { .. } => {
+                    self.find_further(g, id);
+                    extend_loop(g, id, self.live, &self.tangents, &mut self.extended);
+                    continue;
+                }
+                Op::Result(_) => {
+                    self.tangents[id.index()] = of_result(g, id, &self.tangents, &self.extended);
+                    continue;
+                }
+                _ => continue,
+            };
+            let tangents = &self.tangents;
+            let depends =
+                |a: &Id| tangents[a.index()].dz.is_some() || tangents[a.index()].dzbar.is_some();
+            if node.ty != Ty::Bool && node.args.iter().any(depends) {
+                self.tangents[id.index()] = Rule {
+                    g,
+                    node: &node,
+                    value: id,
+                    tangents,
+                }
+                .tangent(prim)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn find_further(&mut self, g: &Graph, id: Id) {
+        let Some(it) = g.as_loop(id) else { return };
+        for state in &it.states {
+            let bar = |of: Id| self.tangents[of.index()].dzbar.is_some();
+            let is_complex = g.ty(state.leaf) == Ty::Complex;
+            if self.live[state.leaf.index()]
+                && is_complex
+                && !bar(state.leaf)
+                && (bar(state.init) || bar(state.next))
+            {
+                self.further.push(state.leaf);
+            }
+        }
     }
 }
 

@@ -62,6 +62,10 @@ pub const CASES: &[Case] = &[
     case!("schwarz-p", SURFACE),
     case!("clebsch", SURFACE),
     case!("barth-sextic", SURFACE),
+    case!("mandelbrot", LEVELS),
+    case!("newton-basins", DOMAIN),
+    case!("mandelbulb", SURFACE),
+    case!("pebble", SURFACE),
 ];
 
 /// The name that the hand-written shader all others are compared with has among the [`Shader`]s.
