@@ -602,3 +602,17 @@ fn long_tokens_are_read() {
         }
     });
 }
+
+#[test]
+fn functions_of_c_that_are_too_deep_are_refused() {
+    on_small_stack(|| {
+        for (depth, fits) in [(150, true), (199, false), (260, false)] {
+            let (open, close) = ("(".repeat(depth), ")".repeat(depth));
+            let text =
+                format!("float s(vec3 p, float r) {{ return length({open}p{close}) - r; }}\n");
+            let parsed = read(&text);
+            check_structure(&text, &parsed);
+            assert_eq!(!parsed.has_errors(), fits, "{depth}");
+        }
+    });
+}

@@ -239,6 +239,10 @@ impl Translator<'_> {
             }
             this.closers.braces -= 1;
         });
+        if self.has_given_up {
+            // the parser is about to meet what was too deep
+            return;
+        }
         if value.is_empty() || self.kind() != TokenKind::RBrace {
             let place = self.span();
             self.complain(

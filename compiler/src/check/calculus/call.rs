@@ -119,7 +119,8 @@ impl<'a> Builder<'a> {
             .map(|(_, value)| value.clone())
             .collect();
         let function = self.user_function(&callee.text);
-        let fits = function.is_none_or(|f| f.params.len() == values.len());
+        let arities = arguments::arities_of(function, &callee.text);
+        let fits = arities.contains(&values.len());
         if fits && !values.is_empty() {
             return Some(values);
         }
@@ -129,6 +130,13 @@ impl<'a> Builder<'a> {
                 "`{operator}({shown})` is at the parameters around it, but those are not the ones of {}",
                 signature(f)
             ),
+            None if !values.is_empty() => {
+                let count = values.len();
+                let plural = if count == 1 { "" } else { "s" };
+                format!(
+                    "`{operator}({shown})` is at the parameters around it, and `{shown}` does not take {count} argument{plural}"
+                )
+            }
             _ => format!("`{operator}({shown})` without a point, and without parameters around it"),
         };
         self.report(
