@@ -6,6 +6,7 @@ use crate::ast::{
     BinaryOp, CompareOp, Expr, ExprId, Exprs, File, Function, Item, Param, Range, SeriesKind, Show,
     UnaryOp,
 };
+use crate::paste::names::is_namespace;
 
 /// How tightly an expression holds together, loosest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -314,9 +315,13 @@ fn parts<'a>(stack: &mut Vec<Work<'a>>, exprs: &'a Exprs, id: ExprId, in_bars: b
             list(stack, args);
         }
         Expr::Member { base, field } => {
-            // `2.x` would read well, but look like a number.
-            let is_number = matches!(exprs[*base], Expr::Number(_) | Expr::Imaginary(_));
-            if is_number {
+            // `2.x` would look like a number, and `np.x` like a name of NumPy.
+            let looks_otherwise = match &exprs[*base] {
+                Expr::Number(_) | Expr::Imaginary(_) => true,
+                Expr::Name(name) => is_namespace(&name.text),
+                _ => false,
+            };
+            if looks_otherwise {
                 stack.extend([Text("("), at(*base, Level::Where), Text(")")]);
             } else {
                 stack.push(at(*base, Level::Postfix));

@@ -124,6 +124,11 @@ impl Translator<'_> {
         }
         self.bump();
         self.bump();
+        // `np. np.sin`: once is enough
+        while is_namespace(self.word_ahead(0)) && self.ahead(1) == TokenKind::Dot {
+            self.bump();
+            self.bump();
+        }
         let is_inner = matches!(self.word_ahead(0), "linalg" | "special")
             && self.ahead(1) == TokenKind::Dot
             && self.ahead(2) == TokenKind::Name;

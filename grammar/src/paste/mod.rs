@@ -14,7 +14,7 @@ mod complaint;
 mod definition;
 mod function;
 mod latex;
-mod names;
+pub(crate) mod names;
 mod series;
 
 use std::collections::HashSet;

@@ -128,7 +128,7 @@ pub(crate) fn is_conversion(name: &str) -> bool {
 }
 
 /// Whether the name stands before the `.` of what NumPy, JavaScript and others collect there.
-pub(super) fn is_namespace(name: &str) -> bool {
+pub(crate) fn is_namespace(name: &str) -> bool {
     matches!(
         name,
         "np" | "numpy" | "math" | "Math" | "cmath" | "jnp" | "torch" | "sympy" | "mpmath" | "mp"

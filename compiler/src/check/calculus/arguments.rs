@@ -28,6 +28,24 @@ pub(super) fn variables<'a>(exprs: &'a Exprs, rest: &[ExprId]) -> Option<Vec<&'a
     (!out.is_empty() && out.len() <= MAX_ORDER as usize).then_some(out)
 }
 
+/// The first name that stands a second time among the variables.
+pub(super) fn named_twice<'a>(exprs: &'a Exprs, rest: &[ExprId]) -> Option<&'a Name> {
+    let mut seen: Vec<&str> = Vec::new();
+    for &arg in rest {
+        let Expr::Name(name) = &exprs[arg] else {
+            continue;
+        };
+        if seen.contains(&name.text.as_str()) {
+            return Some(name);
+        }
+        // more are too many in any case
+        if seen.len() < 16 {
+            seen.push(&name.text);
+        }
+    }
+    None
+}
+
 /// A literal order of a derivative that is not too high.
 pub fn order(exprs: &Exprs, arg: ExprId) -> Option<u32> {
     let Expr::Number(value) = exprs[arg] else {

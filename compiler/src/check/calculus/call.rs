@@ -209,8 +209,15 @@ impl<'a> Builder<'a> {
             Some(self.opened_by_parameters(&value))
         } else {
             let file = self.file;
+            if let Some(twice) = arguments::named_twice(&file.exprs, rest) {
+                return self.variable_twice(twice);
+            }
             match arguments::variables(&file.exprs, rest) {
                 Some(names) => self.opened_by(&value, &names),
+                // what is no name has been reported by the pass over names
+                None if rest.iter().all(|&r| matches!(file.exprs[r], Expr::Name(_))) => {
+                    return self.wrong_count(operator, rest.len(), span);
+                }
                 None => None,
             }
         };
@@ -290,6 +297,24 @@ impl<'a> Builder<'a> {
         if numbers.contains(&scalars.len()) {
             return Some(scalars);
         }
+        self.wrong_count(operator, scalars.len(), span);
+        None
+    }
+
+    fn variable_twice(&mut self, name: &Name) -> Value {
+        self.report(
+            Diagnostic::error(
+                "wrong-variables",
+                name.span,
+                format!("{} is named twice", quoted(&name.text)),
+            )
+            .with_label("named again")
+            .with_hint("name each variable once"),
+        )
+    }
+
+    fn wrong_count(&mut self, operator: &Operator, count: usize, span: Span) -> Value {
+        let numbers = operator.kind.numbers_of_variables();
         let (lo, hi) = (*numbers.start(), *numbers.end());
         let wanted = match hi - lo {
             0 => lo.to_string(),
@@ -300,17 +325,15 @@ impl<'a> Builder<'a> {
             "wrong-variables",
             span,
             format!(
-                "`{}` is by {wanted} real variables, not {}",
-                operator.name,
-                scalars.len()
+                "`{}` is by {wanted} real variables, not {count}",
+                operator.name
             ),
         )
-        .with_label(format!("by {}", scalars.len()));
-        self.report(match scalars.len() {
+        .with_label(format!("by {count}"));
+        self.report(match count {
             1 => problem.with_hint("by one variable, write diff(…, x)"),
             _ => problem.with_hint(format!("name the variables: `{}`", operator.usage)),
-        });
-        None
+        })
     }
 
     fn no_variables(&mut self, operator: &Operator, found: &Value, span: Span) -> Value {
