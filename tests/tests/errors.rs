@@ -2,7 +2,7 @@
 
 use pullback_compiler::compile;
 use pullback_grammar::Diagnostic;
-use pullback_tests::corpus::{Expected, WrongProgram, wrong_programs};
+use pullback_tests::corpus::{Expected, WrongProgram, read, root, wrong_groups, wrong_programs};
 use pullback_tests::holds;
 
 /// Codes that are warnings.
@@ -59,12 +59,13 @@ fn complaints(case: &WrongProgram) -> Vec<String> {
 #[test]
 fn every_wrong_program_gives_its_diagnostics() {
     let cases = wrong_programs();
-    assert!(cases.len() >= 60, "only {} wrong programs", cases.len());
+    assert!(cases.len() >= 270, "only {} wrong programs", cases.len());
     let mut failures = Vec::new();
     for case in &cases {
         let complaints = complaints(case);
         if !complaints.is_empty() {
-            failures.push(format!("{}\n  {}", case.name, complaints.join("\n  ")));
+            let (group, name) = (&case.group, &case.name);
+            failures.push(format!("{group}/{name}\n  {}", complaints.join("\n  ")));
         }
     }
     assert!(
@@ -74,6 +75,37 @@ fn every_wrong_program_gives_its_diagnostics() {
         cases.len(),
         failures.join("\n")
     );
+}
+
+#[test]
+fn the_table_of_groups_is_complete() {
+    let readme = read(&root().join("tests/data/errors/README.md"));
+    let row = |line: &str| {
+        let (group, rest) = line.strip_prefix("| `")?.split_once("` | ")?;
+        let (mistake, count) = rest.strip_suffix(" |")?.rsplit_once(" | ")?;
+        assert!(!mistake.trim().is_empty(), "{group}: which mistake?");
+        Some((group.to_owned(), count.parse::<usize>().ok()?))
+    };
+    let listed: Vec<(String, usize)> = readme.lines().filter_map(row).collect();
+    let cases = wrong_programs();
+    let count = |group: &String| cases.iter().filter(|c| c.group == *group).count();
+    let groups = wrong_groups().into_iter();
+    let found: Vec<(String, usize)> = groups.map(|g| (g.clone(), count(&g))).collect();
+    assert_eq!(listed, found);
+    let mut names: Vec<&str> = cases.iter().map(|c| c.name.as_str()).collect();
+    names.sort_unstable();
+    let twice = names.windows(2).find(|pair| pair[0] == pair[1]);
+    assert_eq!(twice, None, "a name of two programs");
+}
+
+/// Prints every diagnostic of the suite for a review:
+/// `cargo test -p pullback-tests --test errors -- --ignored --nocapture every_diagnostic_for_review`
+#[test]
+#[ignore = "prints a text to be read"]
+fn every_diagnostic_for_review() {
+    for case in wrong_programs() {
+        println!("=== {}/{}\n{}", case.group, case.name, rendered(&case.text));
+    }
 }
 
 /// Rendered as the command line shows them, without colour.
@@ -94,7 +126,7 @@ fn of_corpus(name: &str) -> String {
 fn diagnostics_read_well() {
     let names = [
         "unknown-function-sine",
-        "several-stages",
+        "stages",
         "ambiguous-division",
         "missing-closing-call",
         "duplicate-function",

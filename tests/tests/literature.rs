@@ -15,8 +15,14 @@ const ROWS: usize = 8;
 const BOUNDS: &str = include_str!("../data/literature/bounds.txt");
 
 fn bound(name: &str, machine: &Machine) -> f64 {
-    let line = BOUNDS.lines().find(|line| line.split_whitespace().next() == Some(name));
-    let place = if matches!(machine, Machine::Reference) { 1 } else { 2 };
+    let line = BOUNDS
+        .lines()
+        .find(|line| line.split_whitespace().next() == Some(name));
+    let place = if matches!(machine, Machine::Reference) {
+        1
+    } else {
+        2
+    };
     line.and_then(|line| line.split_whitespace().nth(place)?.parse().ok())
         .unwrap_or(MOST)
 }
@@ -31,10 +37,16 @@ fn check(formulas: &[Published], machine: &Machine, measure: Measure) -> Vec<Str
         match measure(formula, machine) {
             Err(reason) => found.push(format!("{name}: {reason}")),
             Ok(factors) => {
-                println!("{name}: K = {:.2}, {:.2}", factors.value, factors.derivative);
+                println!(
+                    "{name}: K = {:.2}, {:.2}",
+                    factors.value, factors.derivative
+                );
                 let most = factors.value.max(factors.derivative);
                 if most > bound {
-                    found.push(format!("{name}: K = {most:.2}, not {bound}: {}", factors.worst));
+                    found.push(format!(
+                        "{name}: K = {most:.2}, not {bound}: {}",
+                        factors.worst
+                    ));
                 }
                 if factors.rows < ROWS {
                     found.push(format!("{name}: only {} rows were judged", factors.rows));
@@ -47,12 +59,21 @@ fn check(formulas: &[Published], machine: &Machine, measure: Measure) -> Vec<Str
 }
 
 fn report(found: &[String]) {
-    assert!(found.is_empty(), "{} violations\n{}", found.len(), found.join("\n"));
+    assert!(
+        found.is_empty(),
+        "{} violations\n{}",
+        found.len(),
+        found.join("\n")
+    );
 }
 
 #[test]
 fn published_formulas_in_f64_are_as_good_as_their_roundings() {
-    report(&check(&published(), &Machine::Reference, Published::measure));
+    report(&check(
+        &published(),
+        &Machine::Reference,
+        Published::measure,
+    ));
 }
 
 fn on_the_gpu(loops: bool) {
@@ -68,7 +89,11 @@ fn second_derivatives_of_published_formulas_are_as_good_as_their_roundings() {
     let mut formulas = published();
     formulas.retain(Published::second);
     assert!(formulas.len() >= 40, "{}", formulas.len());
-    report(&check(&formulas, &Machine::Reference, Published::measure_second));
+    report(&check(
+        &formulas,
+        &Machine::Reference,
+        Published::measure_second,
+    ));
 }
 
 #[test]
@@ -76,11 +101,18 @@ fn the_corpus_is_as_large_as_promised() {
     let formulas = published();
     let loops = formulas.iter().filter(|f| f.loops()).count();
     let updates = formulas.iter().filter(|f| f.updates()).count();
-    println!("{} formulas, {loops} with loops, {updates} with vectors updated by parts", formulas.len());
+    println!(
+        "{} formulas, {loops} with loops, {updates} with vectors updated by parts",
+        formulas.len()
+    );
     let (all, least_loops, least_updates) = LEAST;
     assert!(formulas.len() >= all && loops >= least_loops && updates >= least_updates);
     for formula in &formulas {
-        assert!(formula.source.contains("// source: "), "{} has no source", formula.name);
+        assert!(
+            formula.source.contains("// source: "),
+            "{} has no source",
+            formula.name
+        );
     }
 }
 

@@ -164,7 +164,9 @@ impl Published {
     /// Whether the table has second derivatives.
     #[must_use]
     pub fn second(&self) -> bool {
-        self.quantities.iter().any(|q| order(&q.name) == Order::Second)
+        self.quantities
+            .iter()
+            .any(|q| order(&q.name) == Order::Second)
     }
 
     /// Evaluates value and first derivatives at every point.
@@ -228,7 +230,10 @@ impl Published {
 
     /// The variables of the second derivatives.
     fn variables(&self) -> Vec<String> {
-        let seconds = self.quantities.iter().filter(|q| order(&q.name) == Order::Second);
+        let seconds = self
+            .quantities
+            .iter()
+            .filter(|q| order(&q.name) == Order::Second);
         seconds.map(|q| q.name[1..2].to_owned()).collect()
     }
 
@@ -249,7 +254,8 @@ impl Published {
             factors.rows += 1;
             // the row that fits best
             let rows = case.rows.iter().zip(&case.notes);
-            let open = rows.filter(|(_, note)| format == Format::Single || note.as_str() != "other");
+            let open =
+                rows.filter(|(_, note)| format == Format::Single || note.as_str() != "other");
             let outcomes = open.map(|(row, _)| self.row(case, row, result, order, format));
             let size = |f: &Factors| {
                 if f.wrong.is_empty() {
@@ -298,8 +304,12 @@ impl Published {
             if overflows && got.len() == width && got.iter().any(|v| !v.is_finite()) {
                 continue;
             }
-            let describe =
-                || format!("{} at {:?}: {got:?} for {expected:?}", quantity.name, case.args);
+            let describe = || {
+                format!(
+                    "{} at {:?}: {got:?} for {expected:?}",
+                    quantity.name, case.args
+                )
+            };
             let beyond = format == Format::Single && expected.iter().any(|e| e.abs() >= OVERFLOW);
             let norm = expected
                 .iter()
@@ -331,13 +341,15 @@ impl Published {
 impl Case {
     /// Whether the first-order bound means anything in a format.
     fn judged(&self, format: Format) -> bool {
-        let coarse = |note: &str| note == "coarse64" || note == "coarse" && format == Format::Single;
+        let coarse =
+            |note: &str| note == "coarse64" || note == "coarse" && format == Format::Single;
         !self.notes[0].split(',').any(coarse)
     }
 
     /// Whether an intermediate result leaves the range of a format.
     fn overflows(&self, format: Format) -> bool {
-        let over = |note: &str| note == "overflow64" || note == "overflow" && format == Format::Single;
+        let over =
+            |note: &str| note == "overflow64" || note == "overflow" && format == Format::Single;
         self.notes[0].split(',').any(over)
     }
 }
