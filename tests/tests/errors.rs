@@ -98,6 +98,46 @@ fn the_table_of_groups_is_complete() {
     assert_eq!(twice, None, "a name of two programs");
 }
 
+/// The text that a hint gives for what lies under the span: "write `…`" or "did you mean `…`?", where nothing is left
+/// out of it.
+fn replacement(found: &Diagnostic) -> Option<&str> {
+    let hint = found.hint.as_deref()?;
+    let rest = hint
+        .strip_prefix("write `")
+        .or_else(|| hint.strip_prefix("did you mean `"))?;
+    let (text, _) = rest.split_once('`')?;
+    (!text.contains('…')).then_some(text)
+}
+
+/// What is wrong with the hints of a program: where each of them gives a text, and that is put in, no diagnostic may be
+/// left.
+fn bad_replacement(case: &WrongProgram) -> Option<String> {
+    let mut found = compile(&case.text).diagnostics;
+    found.sort_by_key(|d| std::cmp::Reverse(d.span.start));
+    let mut mended = case.text.clone();
+    for problem in &found {
+        let range = problem.span.start as usize..problem.span.end as usize;
+        mended.replace_range(range, replacement(problem)?);
+    }
+    let left = compile(&mended).diagnostics;
+    let shown: Vec<String> = left.iter().map(|d| show(d, &mended)).collect();
+    let name = &case.name;
+    (!left.is_empty()).then(|| format!("{name}\n  {mended}  {}", shown.join("\n  ")))
+}
+
+#[test]
+fn what_hints_say_compiles() {
+    let cases = wrong_programs();
+    let replaced = |case: &&WrongProgram| {
+        let found = compile(&case.text).diagnostics;
+        found.iter().all(|d| replacement(d).is_some())
+    };
+    let count = cases.iter().filter(replaced).count();
+    assert!(count >= 44, "only {count} hints give a text");
+    let bad: Vec<String> = cases.iter().filter_map(bad_replacement).collect();
+    assert!(bad.is_empty(), "{}", bad.join("\n"));
+}
+
 /// Prints every diagnostic of the suite for a review:
 /// `cargo test -p pullback-tests --test errors -- --ignored --nocapture every_diagnostic_for_review`
 #[test]

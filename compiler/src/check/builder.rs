@@ -354,9 +354,12 @@ impl<'a> Builder<'a> {
                         Diagnostic::error(
                             "type-mismatch",
                             span,
-                            format!("a component of a vector is real, found {ty}"),
+                            format!(
+                                "a component of a vector is a real number, and this is {}",
+                                ty.in_words()
+                            ),
                         )
-                        .with_label(format!("this is {ty}"))
+                        .with_label(format!("this is {}", ty.in_words()))
                         .with_hint(match ty {
                             Type::Vector(_) => "join vectors by vec3(…) or vec4(…)",
                             _ => advice(ty, false),

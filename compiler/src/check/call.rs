@@ -169,11 +169,13 @@ impl<'a> Builder<'a> {
                     "type-mismatch",
                     span,
                     format!(
-                        "{} is {ty}, found {found}",
-                        quoted(&function.params[k].name.text)
+                        "{} is {}, and this is {}",
+                        quoted(&function.params[k].name.text),
+                        ty.in_words(),
+                        found.in_words()
                     ),
                 )
-                .with_label(format!("this is {found}"))
+                .with_label(format!("this is {}", found.in_words()))
                 .with_related(
                     function.params[k].name.span,
                     format!("{ty} in {}", signature(function)),
@@ -359,7 +361,7 @@ fn written(function: &LibraryFunction) -> String {
 }
 
 fn does_not_take(name: &str, types: &[Type], span: Span) -> Diagnostic {
-    let shown: Vec<String> = types.iter().map(Type::to_string).collect();
+    let shown: Vec<&str> = types.iter().map(|ty| ty.in_words()).collect();
     Diagnostic::error(
         "type-mismatch",
         span,

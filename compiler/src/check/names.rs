@@ -2,9 +2,9 @@
 
 mod binding;
 
-use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Name, Setting};
+use pullback_grammar::ast::{BinaryOp, Expr, ExprId, Exprs, File, Function, Item, Name, Setting};
 use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
-use pullback_grammar::{Diagnostic, Span};
+use pullback_grammar::{Diagnostic, Span, print_expr};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 mod calculus;
@@ -12,7 +12,7 @@ mod calculus;
 use super::scope::Scope;
 use super::suggest::{quoted, shortened};
 use super::symbols::reserved;
-use super::{Symbols, builtins, is_builtin_function, is_builtin_value, library, nearest};
+use super::{Symbols, builtins, familiar, is_builtin_function, is_builtin_value, library, nearest};
 use crate::table;
 
 /// Longest chain of functions that call each other.
@@ -79,6 +79,10 @@ struct Walk<'a, 'd> {
     free: Vec<&'static str>,
     /// The definition that is being walked.
     current: Option<&'a str>,
+    /// Its value.
+    body: Option<ExprId>,
+    /// Inputs that it lacks, which has been said.
+    excused: Vec<&'a str>,
     /// Which definitions each definition uses, and where.
     uses: FxHashMap<&'a str, Vec<(&'a str, Span)>>,
 }
@@ -99,6 +103,8 @@ impl<'a, 'd> Walk<'a, 'd> {
             fixed: None,
             free: Vec::new(),
             current: None,
+            body: None,
+            excused: Vec::new(),
             uses: FxHashMap::default(),
         }
     }
@@ -139,8 +145,11 @@ impl<'a, 'd> Walk<'a, 'd> {
 
     fn definition(&mut self, name: &'a str, body: ExprId) {
         self.current = Some(name);
+        self.body = Some(body);
         self.expr(body);
         self.current = None;
+        self.body = None;
+        self.excused.clear();
     }
 
     /// An expression that must be a constant; `what` says which.
@@ -196,8 +205,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                     self.calculus(operator, (callee, span), *primes, args);
                     return;
                 }
-                if !self.primes(callee, *primes, args) {
-                    self.callee(callee, args.len());
+                if !self.primes(callee, exprs.span(id), *primes, args) {
+                    self.callee(callee, args);
                 }
                 args.iter().for_each(|a| self.expr(*a));
             }
@@ -267,6 +276,9 @@ impl<'a, 'd> Walk<'a, 'd> {
                 .push(not_constant(name.span, what).with_label("an input of formulas"));
             return;
         }
+        if FREE_NAMES.contains(&text) && self.current.is_some() && self.missing_input(name) {
+            return;
+        }
         let problem = if self.symbols.functions.contains_key(text) || is_builtin_function(text) {
             Diagnostic::error(
                 "function-without-call",
@@ -315,6 +327,23 @@ impl<'a, 'd> Walk<'a, 'd> {
             // will not be listed
             return problem;
         }
+        if let Some(place) = self.known_elsewhere(text) {
+            return problem
+                .with_related(
+                    place,
+                    format!(
+                        "this {} is known inside of its own expression only",
+                        quoted(text)
+                    ),
+                )
+                .with_hint(
+                    "define it where it is used, or give the value to the function as an argument",
+                );
+        }
+        let in_plane = self.in_formula || ["x", "y"].iter().all(|n| self.scope.get(n).is_some());
+        if let Some(hint) = familiar::name(text, in_plane) {
+            return problem.with_hint(hint);
+        }
         let inputs: &[&str] = if self.in_formula { &FREE_NAMES } else { &[] };
         if let Some(product) = self.as_product(text) {
             return problem.with_hint(format!("for a product write `{product}`"));
@@ -330,13 +359,82 @@ impl<'a, 'd> Walk<'a, 'd> {
             .chain(["pi", "tau", "phi", "e", "time", "pixel"]);
         match nearest(text, candidates) {
             Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),
-            None if FREE_NAMES.contains(&text) && !self.in_formula => {
-                problem.with_hint(format!("{}, or define it", self.how_to_take(text)))
-            }
             None => problem.with_hint(format!(
                 "define it: `{0} = …`, or `param {0} = 1 in 0..2` for a slider",
                 shortened(text)
             )),
+        }
+    }
+
+    /// An input that the definition which is walked does not have; said once for all that it lacks. Whether that is it.
+    fn missing_input(&mut self, name: &'a Name) -> bool {
+        let text = name.text.as_str();
+        if self.excused.contains(&text) {
+            return true;
+        }
+        let Some(body) = self.body else { return false };
+        if self.pending.iter().any(|n| n.text == text) {
+            return false;
+        }
+        let lacking = self.lacking_inputs(body, text);
+        let current = self.current.unwrap_or("f");
+        let is_function = self.symbols.functions.contains_key(current);
+        let message = format!("unknown name {}", quoted(text));
+        let problem = Diagnostic::error("unknown-name", name.span, message);
+        self.diagnostics.push(if is_function {
+            problem.with_label("not defined").with_hint(format!(
+                "{}, or define it",
+                self.how_to_take(&lacking.join(", "))
+            ))
+        } else {
+            problem
+                .with_label(format!(
+                    "{} is a constant: no input is known in it",
+                    quoted(current)
+                ))
+                .with_hint(self.hint_for_constant(current, body, &lacking))
+        });
+        self.excused.extend(lacking);
+        self.excused.push(text);
+        true
+    }
+
+    /// The inputs that an expression uses and that mean nothing here, in the order x, y, z, p.
+    fn lacking_inputs(&self, body: ExprId, first: &str) -> Vec<&'static str> {
+        let mut found = Vec::new();
+        let mut stack = vec![body];
+        while let Some(id) = stack.pop() {
+            if let Expr::Name(name) = &self.exprs[id] {
+                found.push(name.text.as_str());
+            }
+            self.exprs[id].for_each_child(|child| stack.push(child));
+        }
+        let lacks = |name: &&&str| **name == first || found.contains(*name) && !self.is_value(name);
+        FREE_NAMES.iter().filter(lacks).copied().collect()
+    }
+
+    /// What `y = x^2` was meant for: a curve, a surface, or a function.
+    fn hint_for_constant(&self, name: &str, body: ExprId, lacking: &[&str]) -> String {
+        let text = shortened(&print_expr(self.exprs, body));
+        let side = match &self.exprs[body] {
+            Expr::Binary {
+                op: BinaryOp::Add | BinaryOp::Sub,
+                ..
+            } => format!("({text})"),
+            Expr::Where { .. } | Expr::If { .. } | Expr::Compare { .. } => format!("({text})"),
+            _ => text.clone(),
+        };
+        let name = shortened(name);
+        let inputs = lacking.join(", ");
+        match (name.as_str(), lacking) {
+            ("y", ["x"]) => {
+                format!("for the curve write `y - {side}` alone; for a function `f(x) = {text}`")
+            }
+            ("x", ["y"]) => format!("for the curve write `x - {side}` alone"),
+            ("z", ["x" | "y"] | ["x", "y"]) => format!(
+                "for the surface write `z - {side}` alone; for a function `f({inputs}) = {text}`"
+            ),
+            _ => format!("for a function write `{name}({inputs}) = {text}`"),
         }
     }
 
@@ -364,8 +462,7 @@ impl<'a, 'd> Walk<'a, 'd> {
     /// `xy` as `x y`, where every letter has a meaning.
     fn as_product(&self, text: &str) -> Option<String> {
         let letters: Vec<String> = text.chars().take(9).map(String::from).collect();
-        let known =
-            |l: &String| self.is_value(l) || (self.in_formula && FREE_NAMES.contains(&l.as_str()));
+        let known = |l: &String| self.is_value(l) || FREE_NAMES.contains(&l.as_str());
         ((2..=8).contains(&letters.len()) && letters.iter().all(known)).then(|| letters.join(" "))
     }
 
@@ -381,6 +478,42 @@ impl<'a, 'd> Walk<'a, 'd> {
         Some(format!("{function}({})", shortened(argument)))
     }
 
+    /// `xsin` as `x sin`, where both parts have a meaning.
+    fn as_factor_and_call(&self, text: &'a str) -> Option<(&'a str, &'a str)> {
+        let places = text.char_indices().map(|(at, _)| at).skip(1).take(4);
+        let mut splits = places.map(|at| text.split_at(at));
+        splits.find(|(factor, function)| {
+            let is_value = self.is_value(factor) || self.in_formula && FREE_NAMES.contains(factor);
+            is_value && function.len() > 1 && is_builtin_function(function)
+        })
+    }
+
+    /// Where a name that means nothing here is a parameter, a local, a running variable or a state.
+    fn known_elsewhere(&self, text: &str) -> Option<Span> {
+        if FREE_NAMES.contains(&text) {
+            return None;
+        }
+        let functions = self.symbols.functions.values();
+        let mut formals = functions.flat_map(|function| &function.params);
+        let is_it = |name: &&Name| name.text == text;
+        let formal = formals.find(|formal| formal.name.text == text);
+        let in_expr = |expr: &'a Expr| match expr {
+            Expr::Where { locals, .. } => locals
+                .iter()
+                .filter(|local| local.field.is_none())
+                .map(|local| &local.name)
+                .find(is_it),
+            Expr::Series { ranges, .. } => ranges.iter().map(|range| &range.name).find(is_it),
+            Expr::Integral { range, .. } => Some(&range.name).filter(is_it),
+            Expr::Iterate { states, .. } => states.iter().map(|state| &state.0).find(is_it),
+            _ => None,
+        };
+        formal
+            .map(|formal| &formal.name)
+            .or_else(|| self.exprs.iter().find_map(|(_, expr, _)| in_expr(expr)))
+            .map(|name| name.span)
+    }
+
     fn usage(&self, name: &str) -> String {
         match self.symbols.functions.get(name) {
             Some(function) => signature(function),
@@ -389,8 +522,9 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    fn callee(&mut self, callee: &'a Name, given: usize) {
+    fn callee(&mut self, callee: &'a Name, args: &[ExprId]) {
         let text = callee.text.as_str();
+        let given = args.len();
         if let Some(function) = self.symbols.functions.get(text).copied() {
             self.record_use(text, callee.span);
             if function.params.len() != given {
@@ -407,15 +541,34 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
         if let Some((expected, usage)) = builtin_arity(text, given) {
             if let Some(expected) = expected {
-                self.diagnostics
-                    .push(wrong_arity(callee, given, &expected, &usage));
+                let problem = wrong_arity(callee, given, &expected, &usage);
+                self.diagnostics.push(match self.other_arity(text, args) {
+                    Some(hint) => problem.with_hint(hint),
+                    None => problem,
+                });
             }
             return;
         }
-        self.diagnostics.push(self.unknown_function(callee));
+        self.diagnostics.push(self.unknown_function(callee, args));
     }
 
-    fn unknown_function(&self, callee: &Name) -> Diagnostic {
+    /// How a function of one argument is written that has two elsewhere.
+    fn other_arity(&self, name: &str, args: &[ExprId]) -> Option<String> {
+        let &[a, b] = args else { return None };
+        let [a, b] = [a, b].map(|id| shortened(&print_expr(self.exprs, id)));
+        match name {
+            "log" | "ln" if a.parse::<f64>().is_ok() => Some(format!(
+                "for the logarithm to base {a} write `log({b})/log({a})`"
+            )),
+            "log" | "ln" => Some(format!(
+                "for the logarithm to base {b} write `log({a})/log({b})`"
+            )),
+            "round" => Some(format!("to {b} decimals: `round({a} 10^{b})/10^{b}`")),
+            _ => None,
+        }
+    }
+
+    fn unknown_function(&self, callee: &Name, args: &[ExprId]) -> Diagnostic {
         let text = callee.text.as_str();
         let problem = Diagnostic::error(
             "unknown-function",
@@ -426,6 +579,17 @@ impl<'a, 'd> Walk<'a, 'd> {
         if self.diagnostics.len() > MAX_DIAGNOSTICS {
             // will not be listed
             return problem;
+        }
+        let shown: Vec<String> = args
+            .iter()
+            .take(4)
+            .map(|&id| shortened(&print_expr(self.exprs, id)))
+            .collect();
+        if let Some(hint) = familiar::function(text, &shown) {
+            return problem.with_hint(hint);
+        }
+        if let Some((factor, function)) = self.as_factor_and_call(text) {
+            return problem.with_hint(format!("for a product write `{factor} {function}`"));
         }
         let known = table::rows()
             .iter()
@@ -474,8 +638,11 @@ fn unknown_type(ty: &Name) -> Diagnostic {
     };
     match nearest(&ty.text, types) {
         _ if !meant.is_empty() => problem.with_hint(format!("write `{meant}`")),
+        _ if ty.text.starts_with("vec") => {
+            problem.with_hint("a vector has 2 to 4 components: `vec2`, `vec3` or `vec4`")
+        }
         Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),
-        None => problem.with_hint("types are real, complex, vec2, vec3, vec4 and bool"),
+        None => problem.with_hint("types are `real`, `complex`, `vec2`, `vec3` and `vec4`"),
     }
 }
 
@@ -504,6 +671,17 @@ pub fn signature(function: &Function) -> String {
         })
         .collect();
     shortened(&format!("{}({})", function.name.text, params.join(", ")))
+}
+
+/// `fbm(p: vec2, octaves: real)` as `fbm(p, octaves)`.
+fn without_types(usage: &str) -> String {
+    let mut parts = usage.split(": ");
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let rest = part.find([',', ')']).and_then(|at| part.get(at..));
+        out.push_str(rest.unwrap_or_default());
+    }
+    out
 }
 
 fn wrong_arity(callee: &Name, given: usize, expected: &str, usage: &str) -> Diagnostic {
@@ -549,6 +727,13 @@ fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
     }
     arities.sort_unstable();
     arities.dedup();
+    // where the number is wrong, the types only make the list longer
+    let plain: Vec<String> = usages.iter().map(|usage| without_types(usage)).collect();
+    let mut plain: Vec<&str> = plain.iter().map(String::as_str).collect();
+    if arities.len() > 1 {
+        plain.dedup_by_key(|usage| usage.matches(',').count());
+        usages = plain;
+    }
     let expected = (!arities.contains(&given)).then(|| {
         let counts: Vec<String> = arities.iter().map(usize::to_string).collect();
         listed(&counts).replace('`', "")
@@ -652,5 +837,5 @@ fn cycle(symbols: &Symbols, path: &[(&str, usize)], callee: &str, span: Span) ->
         format!("{} calls itself", quoted(callee)),
     )
     .with_label(&chain)
-    .with_hint("a formula has no recursion; write the steps out")
+    .with_hint("a formula has no recursion; repeat steps by `iterate(n, z = start, step)`, add up by `sum(k in 1..n, term)`")
 }

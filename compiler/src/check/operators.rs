@@ -1,11 +1,12 @@
 //! Operators: which types they take, and what they build.
 
 use pullback_grammar::ast::{BinaryOp, CompareOp, ExprId, UnaryOp};
-use pullback_grammar::{Diagnostic, Span};
+use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
+use pullback_grammar::{Diagnostic, Span, print_expr};
 use smallvec::SmallVec;
 
 use super::builtins::length;
-use super::{Builder, Value};
+use super::{Builder, Value, shortened};
 use crate::ir::{Id, Prim, Ty};
 use crate::numeral::Numeral;
 use crate::types::Type;
@@ -69,6 +70,33 @@ impl<'a> Builder<'a> {
         }
     }
 
+    /// The text of what stands at a place, cut where it is long.
+    pub(super) fn text_at(&self, span: Span) -> Option<String> {
+        if self.diagnostics.len() > MAX_DIAGNOSTICS {
+            // will not be listed
+            return None;
+        }
+        let exprs = &self.file.exprs;
+        let outermost = exprs.iter().filter(|(_, _, at)| *at == span).last()?;
+        Some(shortened(&print_expr(exprs, outermost.0)))
+    }
+
+    /// The text of the operand or argument at a place that is a condition, where the types are those of the operands.
+    fn condition_in(&self, span: Span, types: &[Type]) -> Option<String> {
+        if self.diagnostics.len() > MAX_DIAGNOSTICS {
+            return None;
+        }
+        let exprs = &self.file.exprs;
+        let (_, whole, _) = exprs.iter().filter(|(_, _, at)| *at == span).last()?;
+        let mut operands = Vec::new();
+        whole.for_each_child(|child| operands.push(child));
+        let which = types.iter().position(|ty| *ty == Type::Bool)?;
+        let operand = operands
+            .get(which)
+            .filter(|_| operands.len() == types.len())?;
+        Some(shortened(&print_expr(exprs, *operand)))
+    }
+
     pub(super) fn condition_expected(&mut self, value: &Value, span: Span) -> Value {
         let Some(ty) = value.ty(&self.graph) else {
             return Value::Error;
@@ -77,10 +105,16 @@ impl<'a> Builder<'a> {
             Diagnostic::error(
                 "condition-not-bool",
                 span,
-                format!("expected a condition, found {ty}"),
+                format!("a condition is needed here, and this is {}", ty.in_words()),
             )
-            .with_label(format!("this is {ty}"))
-            .with_hint("write a comparison such as x > 0"),
+            .with_label(format!("this is {}", ty.in_words()))
+            .with_hint(match self.text_at(span) {
+                Some(text) if ty == Type::Real => {
+                    format!("write a comparison such as `{text} > 0`")
+                }
+                Some(text) => format!("write a comparison such as `|{text}| > 1`"),
+                None => "write a comparison such as `x > 0`".to_owned(),
+            }),
         )
     }
 
@@ -166,7 +200,7 @@ impl<'a> Builder<'a> {
             return Value::Error;
         }
         let row = crate::table::row(prim);
-        let shown: Vec<String> = tys.iter().map(Type::to_string).collect();
+        let shown: Vec<&str> = tys.iter().map(|ty| ty.in_words()).collect();
         let problem = Diagnostic::error(
             "type-mismatch",
             span,
@@ -177,7 +211,11 @@ impl<'a> Builder<'a> {
             .filter(|t| matches!(t, Type::Vector(_)))
             .collect();
         let problem = if tys.contains(&Type::Bool) {
-            problem.with_hint("a condition is not a number: write if … then 1 else 0")
+            let culprit = self.condition_in(span, &tys);
+            let shown = culprit.as_deref().unwrap_or("…");
+            problem.with_hint(format!(
+                "a condition is no number: `if {shown} then 1 else 0` is one"
+            ))
         } else if vectors.len() > 1 && vectors.iter().any(|t| *t != vectors[0]) {
             problem.with_hint("vectors must have the same number of components; a swizzle such as p.xy shortens one")
         } else if tys.contains(&Type::Complex) && !vectors.is_empty() {
@@ -210,6 +248,11 @@ impl<'a> Builder<'a> {
             }
             left_span = self.span(right);
             let right = self.expr(right);
+            if failed {
+                // one mistake in a chain is enough
+                left = right;
+                continue;
+            }
             match self.compare(op, &left, &right, span) {
                 Value::Scalar(step) => {
                     all = Some(match all {
@@ -238,7 +281,11 @@ impl<'a> Builder<'a> {
             let problem = Diagnostic::error(
                 "type-mismatch",
                 span,
-                format!("{culprit} values have no order to compare by"),
+                match culprit {
+                    Type::Complex => "complex numbers have no order to compare by",
+                    Type::Vector(_) => "vectors have no order to compare by",
+                    _ => "conditions have no order to compare by",
+                },
             );
             return self.report(match culprit {
                 Type::Complex => problem.with_hint("compare abs(z), re(z) or im(z)"),
@@ -344,11 +391,26 @@ impl<'a> Builder<'a> {
             Diagnostic::error(
                 "type-mismatch",
                 b.1,
-                format!("the branches differ in type: {ta} and {tb}"),
+                format!(
+                    "the branches differ: {} and {}",
+                    ta.in_words(),
+                    tb.in_words()
+                ),
             )
-            .with_label(format!("this is {tb}"))
-            .with_related(a.1, format!("this is {ta}"))
-            .with_hint("give both the same type"),
+            .with_label(format!("this is {}", tb.in_words()))
+            .with_related(a.1, format!("this is {}", ta.in_words()))
+            .with_hint(match (ta, tb) {
+                (Type::Vector(_), Type::Vector(_)) => {
+                    "give both the same number of components".to_owned()
+                }
+                (Type::Vector(_), Type::Real) => match self.text_at(b.1) {
+                    Some(text) => {
+                        format!("write `{ta}({text})` for a vector with that in each component")
+                    }
+                    None => format!("make a vector of it: `{ta}(…)`"),
+                },
+                _ => "both must be numbers, or vectors of one length".to_owned(),
+            }),
         )
     }
 }

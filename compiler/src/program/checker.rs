@@ -156,6 +156,16 @@ impl<'a> Checker<'a> {
             self.diagnostics
                 .push(match nearest(&show.scene.text, names) {
                     Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
+                    None if matches!(
+                        show.scene.text.as_str(),
+                        "contour" | "contours" | "plot" | "heatmap" | "curve" | "plane"
+                    ) =>
+                    {
+                        problem.with_hint("write `levels`")
+                    }
+                    None if matches!(show.scene.text.as_str(), "isosurface" | "plot3d" | "sdf") => {
+                        problem.with_hint("write `surface`")
+                    }
                     None => problem.with_hint(format!("scenes are {}", list.join(", "))),
                 });
             return None;
@@ -176,7 +186,10 @@ impl<'a> Checker<'a> {
                         show.args.len()
                     ),
                 )
-                .with_hint(format!("write `show {}(f)`", scene.name)),
+                .with_hint(format!(
+                    "show one after the other: `show {0}(f)`, and `show {0}(g)` in the next line",
+                    scene.name
+                )),
             );
             return None;
         };

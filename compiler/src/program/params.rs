@@ -94,7 +94,10 @@ impl<'a> Checker<'a> {
                 let problem = Diagnostic::error(
                     "type-mismatch",
                     span,
-                    format!("{what} must be real, this is {ty}"),
+                    format!(
+                        "{what} must be a real number, and this is {}",
+                        ty.in_words()
+                    ),
                 );
                 self.diagnostics.push(if ty == Type::Complex {
                     problem.with_hint("use one parameter for each part, as in `a + b i`")

@@ -87,9 +87,13 @@ impl Parser<'_> {
     fn constant(&mut self) -> Constant {
         let name = self.name_to_define();
         self.expect_equals();
+        let mut value = self.expr();
+        if self.is_abandoned() {
+            value = self.error_node(value.span);
+        }
         Constant {
             name,
-            value: self.expr().id,
+            value: value.id,
             span: Span::default(),
         }
     }
@@ -125,7 +129,11 @@ impl Parser<'_> {
     /// `formula = expr`
     fn formula(&mut self) -> Formula {
         self.bind_free_variables();
-        let body = self.expr();
+        let mut body = self.expr();
+        if self.is_abandoned() {
+            // what is wrong has been said; its names need not mean anything
+            body = self.error_node(body.span);
+        }
         self.unbind_free_variables();
         Formula {
             body: body.id,

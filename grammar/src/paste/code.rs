@@ -137,7 +137,7 @@ impl Translator<'_> {
                 self.span(),
                 "the `sinc` of NumPy is sin(πx)/(πx)",
                 "sin(x)/x here",
-                "write `sinc(π x)`",
+                "with its π here: `sinc(π x)`",
             );
         }
         let word = self.word_ahead(0).to_owned();
@@ -192,7 +192,7 @@ impl Translator<'_> {
             let name = shorten(word);
             let is_index = self.ahead(1) == TokenKind::Number;
             let hint = if is_index {
-                format!("write `{name}.x`, `{name}.y`, `{name}.z` or `{name}.w` for a component")
+                format!("a component is `{name}.x`, `{name}.y`, `{name}.z` or `{name}.w`")
             } else {
                 format!("write `{name}(…)` for a call")
             };

@@ -23,9 +23,12 @@ impl<'a> Builder<'a> {
                 Some(Type::Real) => {}
                 Some(found) => {
                     fits = false;
-                    let message = format!("the {which} end of an integral is real, found {found}");
+                    let message = format!(
+                        "the {which} end of an integral is a real number, and this is {}",
+                        found.in_words()
+                    );
                     let problem = Diagnostic::error("type-mismatch", self.span(end), message)
-                        .with_label(format!("this is {found}"));
+                        .with_label(format!("this is {}", found.in_words()));
                     self.report(problem.with_hint(advice(found, false)));
                 }
                 None => fits = false,
