@@ -38,6 +38,9 @@ pub(crate) fn join_pairs(text: &str, diagnostics: &mut Vec<Diagnostic>) {
         match twin {
             Some((family, first)) => {
                 *first = of_pair(text, family, first.span.join(diagnostic.span));
+                if family == '∂' {
+                    with_variable(text, first);
+                }
                 open = None;
             }
             None => {
@@ -48,7 +51,38 @@ pub(crate) fn join_pairs(text: &str, diagnostics: &mut Vec<Diagnostic>) {
             }
         }
     }
+    // `in [0, 1]`: the range has been complained about
+    let ranges: Vec<Span> = kept
+        .iter()
+        .filter(|d| matches!(d.code, "bad-range" | "range-as-condition"))
+        .map(|d| d.span)
+        .collect();
+    kept.retain(|d| {
+        let is_inside = |range: &Span| range.start <= d.span.start && d.span.end <= range.end;
+        d.code != "stray-character" || !ranges.iter().any(is_inside)
+    });
     *diagnostics = kept;
+}
+
+/// `∂f/∂x`: the name behind the second sign is the variable.
+fn with_variable(text: &str, diagnostic: &mut Diagnostic) {
+    let rest = text.get(diagnostic.span.end as usize..).unwrap_or_default();
+    let letters = rest.chars().take(20).take_while(|c| c.is_alphanumeric());
+    let variable: String = letters.collect();
+    let whole = diagnostic.span.text(text);
+    let what = whole
+        .trim_start_matches('∂')
+        .trim_end_matches(['∂', '/', ' ']);
+    let is_wrapped = what.starts_with('(') && what.ends_with(')');
+    let inner = what
+        .get(1..what.len().saturating_sub(1))
+        .filter(|_| is_wrapped);
+    let what = shorten(inner.unwrap_or(what));
+    if !variable.is_empty() && !what.is_empty() {
+        let length = u32::try_from(variable.len()).unwrap_or_default();
+        diagnostic.span = Span::new(diagnostic.span.start, diagnostic.span.end + length);
+        diagnostic.hint = Some(format!("write `diff({what}, {variable})`"));
+    }
 }
 
 /// One complaint about both characters of a pair, with what is between them.

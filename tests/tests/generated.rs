@@ -287,7 +287,7 @@ fn many_mistakes_are_counted_not_listed() {
     }
     for (name, text) in [
         ("names", names),
-        ("strays", format!("x + y {}", "$ ".repeat(10_000))),
+        ("strays", format!("x + y {}", "@ ".repeat(10_000))),
     ] {
         let found = answer(name, text);
         assert!(

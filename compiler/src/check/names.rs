@@ -314,6 +314,12 @@ impl<'a, 'd> Walk<'a, 'd> {
             format!("unknown name {}", quoted(text)),
         )
         .with_label("not defined");
+        if self.pending.last().is_some_and(|n| n.text == text) {
+            let message = format!("{} is defined by itself", quoted(text));
+            return Diagnostic::error("used-before-definition", name.span, message)
+                .with_label("has no value yet")
+                .with_hint("give what is meant another name: a local sees those before it");
+        }
         if let Some(local) = self.pending.iter().rev().find(|n| n.text == text) {
             return Diagnostic::error(
                 "used-before-definition",
@@ -341,10 +347,27 @@ impl<'a, 'd> Walk<'a, 'd> {
                 );
         }
         let in_plane = self.in_formula || ["x", "y"].iter().all(|n| self.scope.get(n).is_some());
+        if matches!(text, "θ" | "theta") && self.current == Some("r") {
+            let body = self
+                .body
+                .map(|id| print_expr(self.exprs, id))
+                .unwrap_or_default();
+            let curve = shortened(&body.replace(text, "atan2(y, x)"));
+            return problem.with_hint(format!(
+                "for the curve write `hypot(x, y) - ({curve})` alone"
+            ));
+        }
         if let Some(hint) = familiar::name(text, in_plane) {
             return problem.with_hint(hint);
         }
         let inputs: &[&str] = if self.in_formula { &FREE_NAMES } else { &[] };
+        if let Some((vector, letters)) = text.split_once('_')
+            && self.is_value(vector)
+            && !letters.is_empty()
+            && letters.chars().all(|c| "xyzw".contains(c))
+        {
+            return problem.with_hint(format!("did you mean `{vector}.{letters}`?"));
+        }
         if let Some(product) = self.as_product(text) {
             return problem.with_hint(format!("for a product write `{product}`"));
         }

@@ -109,6 +109,9 @@ impl<'a> Builder<'a> {
             )
             .with_label(format!("this is {}", ty.in_words()))
             .with_hint(match self.text_at(span) {
+                Some(text) if text.parse::<f64>().is_ok() => {
+                    "a number is no condition; a choice is `if c then a else b`".to_owned()
+                }
                 Some(text) if ty == Type::Real => {
                     format!("write a comparison such as `{text} > 0`")
                 }

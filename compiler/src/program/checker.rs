@@ -2,11 +2,11 @@
 
 use super::settings::default_settings;
 use super::{MAX_SHOWS, Picture, Signature};
-use crate::check::{Builder, Symbols, nearest, quoted};
+use crate::check::{Builder, Symbols, nearest, quoted, shortened};
 use crate::scene::{Space, default_scene, scene, scenes};
 use crate::types::Type;
 use pullback_grammar::ast::{Expr, ExprId, File, Function, Item, Show};
-use pullback_grammar::{Diagnostic, Span};
+use pullback_grammar::{Diagnostic, Span, print_expr};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What a picture shows: a function, or a formula in free variables.
@@ -119,7 +119,7 @@ impl<'a> Checker<'a> {
                         Span::default(),
                         "there is no formula to show",
                     )
-                    .with_hint("write one, such as sin(x^2 + y^2)"),
+                    .with_hint(self.hint_for_nothing()),
                 );
             }
             return None;
@@ -138,6 +138,29 @@ impl<'a> Checker<'a> {
             settings: default_settings(scene),
             formula,
         })
+    }
+
+    /// `x = 2` names a number; as a curve it is the difference of its sides.
+    fn hint_for_nothing(&self) -> String {
+        let exprs = &self.file.exprs;
+        let curve = self.file.items.iter().find_map(|item| match item {
+            Item::Constant(constant) => {
+                let name = constant.name.text.as_str();
+                let side = match name {
+                    "x" | "y" | "z" => name,
+                    "xy" => "x y",
+                    "r" => "hypot(x, y)",
+                    "θ" => "atan2(y, x)",
+                    _ => return None,
+                };
+                let value = shortened(&print_expr(exprs, constant.value));
+                Some(format!(
+                    "for a curve write `{side} - ({value})`, without a name"
+                ))
+            }
+            _ => None,
+        });
+        curve.unwrap_or_else(|| "write one, such as `sin(x^2 + y^2)`".to_owned())
     }
 
     pub(super) fn picture(&mut self, show: &'a Show) -> Option<Picture> {

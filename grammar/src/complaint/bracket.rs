@@ -97,7 +97,7 @@ impl Parser<'_> {
     /// Braces without a single `:` hold no cases; `{1, 2, 3}` is a list of other languages. What is inside is left
     /// unread where it ends soon.
     pub(crate) fn is_foreign_list(&mut self, opened: &Opened) -> bool {
-        let Some(end) = self.end_of_list() else {
+        let Some(end) = self.end_of_list(0) else {
             return false;
         };
         let whole = opened.span.join(self.span_ahead(end));
@@ -145,13 +145,13 @@ impl Parser<'_> {
         true
     }
 
-    /// How many tokens stand before the `}` that closes the braces here, if that comes soon and no `:` is among them.
-    fn end_of_list(&self) -> Option<usize> {
+    /// How many tokens stand before the `}` that closes the braces whose inside begins `from` tokens on, if that comes soon and no `:` is among them.
+    pub(crate) fn end_of_list(&self, from: usize) -> Option<usize> {
         let mut depth = 0_usize;
         for n in 0..60 {
-            match self.ahead(n) {
+            match self.ahead(from + n) {
                 TokenKind::RBrace if depth == 0 => return Some(n),
-                TokenKind::Colon | TokenKind::End | TokenKind::Else => return None,
+                TokenKind::Colon | TokenKind::End => return None,
                 TokenKind::LBrace | TokenKind::LParen => depth += 1,
                 TokenKind::RBrace | TokenKind::RParen => depth = depth.saturating_sub(1),
                 _ => {}
@@ -214,7 +214,9 @@ impl Parser<'_> {
             let kind = self.ahead(n);
             matches!(kind, Less | LessEqual | Greater | GreaterEqual | NotEqual)
         });
-        if compares {
+        if self.statement == StatementKind::Show {
+            "settings stand in braces: `show levels(f) { height = 2 }`"
+        } else if compares {
             "for a condition write `if condition then value else nan`"
         } else if self.first_span().text(self.text) == "param" {
             "write one `param` on each line"
@@ -335,7 +337,11 @@ impl Parser<'_> {
                 format!("missing `,` before {quoted}"),
                 Some("put `,` between the items"),
             ),
-            _ => ("unexpected-token", format!("unexpected {quoted}"), None),
+            _ => (
+                "unexpected-token",
+                format!("{quoted} cannot stand here"),
+                Some("remove it, or write what is missing before it"),
+            ),
         };
         let mut diagnostic = Diagnostic::error(code, self.span(), message);
         diagnostic.hint = hint.map(str::to_owned);

@@ -52,7 +52,10 @@ impl Parser<'_> {
             return self.complain_no_argument(callee.span, &name, hint);
         }
         let raised = self.at(TokenKind::Caret);
-        let argument = self.bare_argument(if raised { 2 } else { 0 });
+        let brackets = raised && matches!(self.ahead(1), TokenKind::LParen | TokenKind::LBrace);
+        let argument = self
+            .bare_argument(if raised { 2 } else { 0 })
+            .filter(|_| !brackets);
         let Some(argument) = argument else {
             let hint = format!("write `{name}(…)`, with its argument in brackets");
             return self.complain_no_argument(callee.span, &name, hint);

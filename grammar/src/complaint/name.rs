@@ -382,6 +382,38 @@ impl Parser<'_> {
         found
     }
 
+    /// `if x in 0..1`: a condition on a range is written by comparisons.
+    #[cold]
+    pub(crate) fn range_as_condition(&mut self, subject: Node) -> Node {
+        self.bump();
+        let lower = self.disjunction();
+        let upper = if self.eat(TokenKind::DotDot) {
+            Some(self.disjunction())
+        } else {
+            None
+        };
+        let whole = subject.span.join(self.last_span());
+        let text = |node: Node| self.short(node.span);
+        let ends = match (&self.exprs[lower.id], upper) {
+            (_, Some(upper)) => Some((text(lower), text(upper))),
+            (Expr::Vector(ends), None) if ends.len() == 2 => {
+                let [a, b] = [ends[0], ends[1]].map(|id| self.short(self.exprs.span(id)));
+                Some((a, b))
+            }
+            _ => None,
+        };
+        let hint = match ends {
+            Some((a, b)) => format!("write `{a} <= {} <= {b}`", text(subject)),
+            None => "a condition on a range is `0 <= x <= 1`".to_owned(),
+        };
+        self.complain(
+            Diagnostic::error("range-as-condition", whole, "`in` makes no condition")
+                .with_label("compare with both ends")
+                .with_hint(hint),
+        );
+        self.error_node(whole)
+    }
+
     /// `if (c, a, b)` and `if (c) { a } else { b }`, as in other languages; whether it was one of these.
     pub(crate) fn is_foreign_conditional(&mut self, opening: Span, cond: Node) -> bool {
         if self.at(TokenKind::Then) || self.is_hushed() {

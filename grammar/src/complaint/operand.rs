@@ -152,6 +152,8 @@ impl Parser<'_> {
         let value = self.short(self.rest());
         let hint = if let Some((name, list)) = head.split_once('=') {
             format!("write `{}{} = {value}`", name.trim(), list.trim())
+        } else if head.contains(':') {
+            "a function is `f(x) = …`; its types follow".to_owned()
         } else if head.starts_with('(') {
             format!("write `f{head} = {value}`")
         } else {

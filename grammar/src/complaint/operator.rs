@@ -13,6 +13,10 @@ impl Parser<'_> {
             return;
         }
         let (before, here) = (self.last_span(), self.kind());
+        if here == TokenKind::LBrace && self.end_of_list(1).is_some() {
+            // the braces are complained about
+            return;
+        }
         let (lhs, rhs) = (self.short(before), self.short(self.span()));
         let is_number = |kind| matches!(kind, TokenKind::Number | TokenKind::Imaginary);
         let is_split = rhs.starts_with('.') && before.end == self.span().start;
@@ -140,6 +144,7 @@ impl Parser<'_> {
         }
         let is_sum = (0..40).any(|n| matches!(self.ahead(n), TokenKind::Plus | TokenKind::Minus));
         let text = self.short(rhs);
+        let is_list = matches!(self.exprs[lhs.id], Expr::Vector(_));
         let difference = match text.as_str() {
             "0" => self.short(lhs.span),
             _ if is_sum => format!("{} - ({text})", self.short(lhs.span)),
@@ -150,9 +155,11 @@ impl Parser<'_> {
         self.report(
             Diagnostic::error("equals-in-expression", whole, message)
                 .with_label("two sides, where one expression is expected")
-                .with_hint(format!(
-                    "write `{difference}`, which is 0 where both sides agree"
-                )),
+                .with_hint(if is_list {
+                    "define each name in a statement of its own: `a = 1`".to_owned()
+                } else {
+                    format!("write `{difference}`, which is 0 where both sides agree")
+                }),
         );
         self.abandon();
     }

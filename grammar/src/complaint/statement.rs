@@ -75,6 +75,21 @@ impl Parser<'_> {
             "to repeat write `iterate(n, z = start, step until condition)`; it ends where the condition holds"
                 .to_owned()
         } else {
+            let compares = (0..8).any(|n| {
+                use TokenKind::{Greater, GreaterEqual, Less, LessEqual};
+                matches!(self.ahead(n), Greater | GreaterEqual | Less | LessEqual)
+            });
+            if compares && !self.running_follows() {
+                let condition = self.short(self.rest());
+                let message = "`for` is no word of the language";
+                return self.complain(
+                    Diagnostic::error("foreign-loop", word, message)
+                        .with_label("a condition stands before its value")
+                        .with_hint(format!(
+                            "write it as a choice: `if {condition} then … else nan`"
+                        )),
+                );
+            }
             let range = if self.running_follows() {
                 self.range_ahead()
             } else {
@@ -263,6 +278,39 @@ impl Parser<'_> {
             self.bump();
         }
         false
+    }
+
+    /// `show f`: the function, but no scene. Whether that is it.
+    pub(crate) fn lacks_scene(&mut self, name: &Name) -> bool {
+        let is_alone = self.at(TokenKind::End) && self.scope.defines_function(&name.text);
+        if is_alone {
+            let shown = shorten(&name.text);
+            let message = format!("`{shown}` is a function, not a scene");
+            self.report(
+                Diagnostic::error("unknown-scene", name.span, message)
+                    .with_label("which scene?")
+                    .with_hint(format!(
+                        "write `levels({shown})`; other scenes are `domain` and `surface`"
+                    )),
+            );
+        }
+        is_alone
+    }
+
+    /// `show levels(f, height = 2)`: a setting among what is shown. Whether that is it; the rest is left unread.
+    pub(crate) fn is_setting_inside(&mut self) -> bool {
+        let found = self.at(TokenKind::Name) && self.ahead(1) == TokenKind::Equals;
+        if found {
+            let name = self.short(self.span());
+            let message = format!("the setting `{name}` stands among what is shown");
+            self.complain(
+                Diagnostic::error("missing-braces", self.span(), message)
+                    .with_label("settings stand in braces")
+                    .with_hint(format!("put it behind the brackets: `{{ {name} = … }}`")),
+            );
+            self.abandon();
+        }
+        found
     }
 
     /// `show levels f`

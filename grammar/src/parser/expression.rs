@@ -41,7 +41,10 @@ impl Parser<'_> {
     pub(crate) fn conditional(&mut self) -> Node {
         let opening = self.bump();
         let outer = std::mem::replace(&mut self.in_condition, true);
-        let cond = self.disjunction();
+        let mut cond = self.disjunction();
+        if self.at(TokenKind::In) {
+            cond = self.range_as_condition(cond);
+        }
         self.in_condition = outer;
         if self.is_foreign_conditional(opening, cond) {
             return self.error_node(opening.join(self.last_span()));

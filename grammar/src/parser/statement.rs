@@ -72,8 +72,17 @@ impl Parser<'_> {
     /// `formal = NAME [ ":" NAME ]`
     fn formal(&mut self) -> Option<Formal> {
         let Some(name) = self.expect_parameter() else {
+            // the name in `f(2x)` is one all the same
+            let name = (self.at(TokenKind::Number) || self.at(TokenKind::Minus))
+                && self.ahead(1) == TokenKind::Name;
+            if !name {
+                self.skip_to_separator();
+                return None;
+            }
+            self.bump();
+            let name = self.bump_name();
             self.skip_to_separator();
-            return None;
+            return Some(Formal { name, ty: None });
         };
         let ty = if self.eat(TokenKind::Colon) {
             self.expect_type()
