@@ -182,7 +182,10 @@ impl<'a, 'd> Walk<'a, 'd> {
     /// Depth is bounded by the parser; left-leaning chains of operators are walked in a loop.
     fn expr(&mut self, id: ExprId) {
         let mut id = id;
-        while let Expr::Binary { lhs, rhs, .. } = &self.exprs[id] {
+        while let Expr::Binary { op, lhs, rhs } = &self.exprs[id] {
+            if *op == BinaryOp::Div && self.leibniz(id, *lhs, *rhs) {
+                return;
+            }
             self.expr(*rhs);
             id = *lhs;
         }
@@ -206,7 +209,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                     return;
                 }
                 if !self.primes(callee, exprs.span(id), *primes, args) {
-                    self.callee(callee, args);
+                    self.callee(callee, args, exprs.span(id));
                 }
                 args.iter().for_each(|a| self.expr(*a));
             }
@@ -238,6 +241,53 @@ impl<'a, 'd> Walk<'a, 'd> {
             } => self.iteration(*count, states, steps, *until),
             Expr::Integral { body, range } => self.integral(*body, range),
         }
+    }
+
+    /// `dy/dx`, `d/dx(x^2)`: a quotient of names that mean nothing is a derivative. Whether it is that.
+    fn leibniz(&mut self, whole: ExprId, lhs: ExprId, rhs: ExprId) -> bool {
+        let Expr::Name(above) = &self.exprs[lhs] else {
+            return false;
+        };
+        let (below, arg) = match &self.exprs[rhs] {
+            Expr::Name(name) => (name, None),
+            Expr::Call { callee, args, .. } => (callee, args.first()),
+            _ => return false,
+        };
+        let (Some(of), Some(by)) = (above.text.strip_prefix('d'), below.text.strip_prefix('d'))
+        else {
+            return false;
+        };
+        let is_known = |name: &str| {
+            self.is_value(name)
+                || self.symbols.functions.contains_key(name)
+                || is_builtin_function(name)
+        };
+        if by.is_empty() || is_known(&above.text) || is_known(&below.text) {
+            return false;
+        }
+        let shown = arg.map(|&id| shortened(&print_expr(self.exprs, id)));
+        let hint = match shown {
+            Some(text) => format!("write `diff({text}, {})`", shortened(by)),
+            None if of.is_empty() => {
+                format!("a derivative is `diff(expression, {})`", shortened(by))
+            }
+            None => format!(
+                "write `diff({}, {})`, where {0} is an expression or a local",
+                shortened(of),
+                shortened(by)
+            ),
+        };
+        let span = self.exprs.span(whole);
+        self.diagnostics.push(
+            Diagnostic::error(
+                "unknown-name",
+                span,
+                "a derivative is not written as a quotient",
+            )
+            .with_label("these names mean nothing")
+            .with_hint(hint),
+        );
+        true
     }
 
     fn is_value(&self, name: &str) -> bool {
@@ -399,11 +449,11 @@ impl<'a, 'd> Walk<'a, 'd> {
         if self.pending.iter().any(|n| n.text == text) {
             return false;
         }
-        let lacking = self.lacking_inputs(body, text);
+        let (lacking, first) = self.lacking_inputs(body, name);
         let current = self.current.unwrap_or("f");
         let is_function = self.symbols.functions.contains_key(current);
-        let message = format!("unknown name {}", quoted(text));
-        let problem = Diagnostic::error("unknown-name", name.span, message);
+        let message = format!("unknown name {}", quoted(&first.text));
+        let problem = Diagnostic::error("unknown-name", first.span, message);
         self.diagnostics.push(if is_function {
             problem.with_label("not defined").with_hint(format!(
                 "{}, or define it",
@@ -422,18 +472,26 @@ impl<'a, 'd> Walk<'a, 'd> {
         true
     }
 
-    /// The inputs that an expression uses and that mean nothing here, in the order x, y, z, p.
-    fn lacking_inputs(&self, body: ExprId, first: &str) -> Vec<&'static str> {
-        let mut found = Vec::new();
+    /// The inputs that an expression uses and that mean nothing here, in the order x, y, z, p, and the
+    /// first of them.
+    fn lacking_inputs(&self, body: ExprId, known: &'a Name) -> (Vec<&'static str>, &'a Name) {
+        let mut found: Vec<&'a Name> = Vec::new();
+        let exprs = self.exprs;
         let mut stack = vec![body];
         while let Some(id) = stack.pop() {
-            if let Expr::Name(name) = &self.exprs[id] {
-                found.push(name.text.as_str());
+            if let Expr::Name(name) = &exprs[id] {
+                found.push(name);
             }
-            self.exprs[id].for_each_child(|child| stack.push(child));
+            exprs[id].for_each_child(|child| stack.push(child));
         }
-        let lacks = |name: &&&str| **name == first || found.contains(*name) && !self.is_value(name);
-        FREE_NAMES.iter().filter(lacks).copied().collect()
+        let lacks = |name: &str| name == known.text || !self.is_value(name);
+        let is_lacking =
+            |name: &&'a Name| FREE_NAMES.contains(&name.text.as_str()) && lacks(&name.text);
+        found.retain(is_lacking);
+        let used = |name: &&&str| found.iter().any(|n| n.text == **name);
+        let first = found.iter().copied().min_by_key(|name| name.span.start);
+        let lacking = FREE_NAMES.iter().filter(used).copied().collect();
+        (lacking, first.unwrap_or(known))
     }
 
     /// What `y = x^2` was meant for: a curve, a surface, or a function.
@@ -545,7 +603,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    fn callee(&mut self, callee: &'a Name, args: &[ExprId]) {
+    fn callee(&mut self, callee: &'a Name, args: &[ExprId], whole: Span) {
         let text = callee.text.as_str();
         let given = args.len();
         if let Some(function) = self.symbols.functions.get(text).copied() {
@@ -572,7 +630,13 @@ impl<'a, 'd> Walk<'a, 'd> {
             }
             return;
         }
-        self.diagnostics.push(self.unknown_function(callee, args));
+        let mut problem = self.unknown_function(callee, args);
+        let hint = problem.hint.as_deref().unwrap_or_default();
+        if hint.starts_with("write `") && hint.contains('(') || hint.starts_with("write `|") {
+            // the hint is of the whole call
+            problem.span = whole;
+        }
+        self.diagnostics.push(problem);
     }
 
     /// How a function of one argument is written that has two elsewhere.

@@ -87,7 +87,10 @@ impl<'a> Checker<'a> {
             .items
             .iter()
             .filter_map(|item| match item {
-                Item::Formula(formula) => Some(formula.span),
+                // what could not be read may be no formula at all
+                Item::Formula(formula) if !matches!(self.file.exprs[formula.body], Expr::Error) => {
+                    Some(formula.span)
+                }
                 _ => None,
             })
             .collect();
@@ -154,8 +157,12 @@ impl<'a> Checker<'a> {
                     _ => return None,
                 };
                 let value = shortened(&print_expr(exprs, constant.value));
+                let value = match &exprs[constant.value] {
+                    Expr::Number(_) | Expr::Name(_) => value,
+                    _ => format!("({value})"),
+                };
                 Some(format!(
-                    "for a curve write `{side} - ({value})`, without a name"
+                    "for a curve write `{side} - {value}`, without a name"
                 ))
             }
             _ => None,

@@ -112,6 +112,16 @@ impl Parser<'_> {
             TokenKind::NotEqual,
             TokenKind::Equals,
         ];
+        if let Some(value) = inside.strip_prefix("return ") {
+            let message = "a function is defined by `=`, not by braces";
+            self.report(
+                Diagnostic::error("foreign-statement", whole, message)
+                    .with_label("the body of a function in other languages")
+                    .with_hint(format!("write `= {value}`")),
+            );
+            self.abandon();
+            return true;
+        }
         let (message, hint) = if holds(TokenKind::If) {
             (
                 "these cases have no `:`",

@@ -345,7 +345,11 @@ impl Parser<'_> {
             self.complain(
                 Diagnostic::error("missing-equals", span, message)
                     .with_label("expected `=`")
-                    .with_hint(format!("write `{} = value`", shorten(&name.text))),
+                    .with_hint(if self.at(TokenKind::Colon) {
+                        "write `=`".to_owned()
+                    } else {
+                        format!("a setting is `{} = value`", shorten(&name.text))
+                    }),
             );
             if self.eat(TokenKind::Colon) {
                 return Some(name);
@@ -360,7 +364,7 @@ impl Parser<'_> {
             self.complain(
                 Diagnostic::error("missing-name", span, message)
                     .with_label("expected a name")
-                    .with_hint("write `{ name = value, name = lo..hi }`"),
+                    .with_hint("settings are `{ name = value, name = lo..hi }`"),
             );
         }
         None

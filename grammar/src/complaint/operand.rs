@@ -118,9 +118,19 @@ impl Parser<'_> {
                 .with_hint("write the new value where it is needed, or give it a name with `where`")
         } else if applies {
             let message = format!("missing operand after {}", self.quote(last));
+            let operand = self.span_behind(1);
+            let is_star = before == TokenKind::Star
+                && operand.end == last.start
+                && self.behind_by(1) == TokenKind::Name;
+            let hint = if is_star {
+                let name = self.short(operand);
+                format!("write the operand; the conjugate of {name} is `conj({name})`")
+            } else {
+                "write the operand, or remove the operator".to_owned()
+            };
             Diagnostic::error("missing-operand", last, message)
                 .with_label("needs an operand on its right")
-                .with_hint("write the operand, or remove the operator")
+                .with_hint(hint)
         } else if stands_behind {
             let message = format!("missing operand before {}", self.describe());
             Diagnostic::error("missing-operand", self.span(), message)

@@ -365,14 +365,15 @@ fn foreign_statement(word: &str) -> Option<&'static str> {
         "def" | "function" | "fn" | "func" | "void" | "lambda" | "class" | "struct" => {
             "define a function by one expression: `f(x, y) = value where a = …`"
         }
-        "return" | "print" | "echo" | "plot" | "draw" | "Plot" | "Draw" => {
-            "write the formula alone, or `show levels(formula)`"
+        "return" | "print" | "echo" | "plot" | "draw" | "Plot" | "Draw" | "Plot3D"
+        | "ContourPlot" | "DensityPlot" => {
+            "a program shows its formula: write that alone, or `show levels(formula)`"
         }
         "uniform" | "varying" | "attribute" | "slider" => {
-            "write `param name = value in lo..hi` for a number that can be changed"
+            "a number that can be changed is `param name = value in lo..hi`"
         }
         "out" | "precision" | "layout" => "remove the line: a scene draws the formula",
-        "let" | "var" | "const" | "local" => "write `name = value`",
+        "let" | "var" | "const" | "local" => "a definition is `name = value`",
         _ => return None,
     })
 }

@@ -185,7 +185,26 @@ impl Translator<'_> {
             && (self.bracketed.contains(word)
                 || word.starts_with(|c: char| c.is_ascii_uppercase())
                     && function_of(word).is_some());
-        if is_call {
+        let is_head = is_behind_name
+            && self.ahead(1) != TokenKind::Number
+            && matches!(
+                word,
+                "If" | "Which"
+                    | "Piecewise"
+                    | "Sum"
+                    | "Product"
+                    | "Integrate"
+                    | "D"
+                    | "Limit"
+                    | "Module"
+                    | "With"
+                    | "Plot"
+                    | "Plot3D"
+                    | "ContourPlot"
+                    | "DensityPlot"
+            );
+        if is_call || is_head {
+            // a head without a meaning here is reported as an unknown function
             let span = self.bump();
             self.emit(TokenKind::LParen, span);
         } else if is_behind_name {
