@@ -5,7 +5,6 @@ use pullback_grammar::{Diagnostic, Span};
 use smallvec::SmallVec;
 
 use super::builder::Known;
-use super::builtins::advice;
 use super::library::LibraryFunction;
 use super::names::{listed, signature};
 use super::scope::Scope;
@@ -181,7 +180,8 @@ impl<'a> Builder<'a> {
                     format!("{ty} in {}", signature(function)),
                 );
                 let wants_vector = matches!(ty, Type::Vector(_));
-                self.report(problem.with_hint(advice(found, wants_vector)))
+                let hint = self.advice_at(found, wants_vector, span);
+                self.report(problem.with_hint(hint))
             }
         }
     }

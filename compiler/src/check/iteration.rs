@@ -444,13 +444,14 @@ impl<'a> Builder<'a> {
             return Some(*id);
         }
         let span = self.span(id);
+        let hint = self.advice_at(ty, false, span);
         self.report(
             Diagnostic::error(
                 "type-mismatch",
                 span,
                 format!("{what} must be real, and this is {}", ty.in_words()),
             )
-            .with_hint(super::builtins::advice(ty, false)),
+            .with_hint(hint),
         );
         None
     }

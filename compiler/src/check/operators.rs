@@ -81,8 +81,16 @@ impl<'a> Builder<'a> {
         Some(shortened(&print_expr(exprs, outermost.0)))
     }
 
-    /// The text of the operand or argument at a place that is a condition, where the types are those of the operands.
-    fn condition_in(&self, span: Span, types: &[Type]) -> Option<String> {
+    /// How what stands at a place becomes what is wanted, in its own text: a vector, or a real number.
+    pub(super) fn advice_at(&self, found: Type, wants_vector: bool, span: Span) -> String {
+        match self.text_at(span) {
+            Some(text) => advice_for(found, wants_vector, &text),
+            None => super::builtins::advice(found, wants_vector).to_owned(),
+        }
+    }
+
+    /// The text of the first operand or argument at a place that has a type, where `types` are those of all of them.
+    fn operand_of(&self, span: Span, types: &[Type], wanted: Type) -> Option<String> {
         if self.diagnostics.len() > MAX_DIAGNOSTICS {
             return None;
         }
@@ -90,7 +98,7 @@ impl<'a> Builder<'a> {
         let (_, whole, _) = exprs.iter().filter(|(_, _, at)| *at == span).last()?;
         let mut operands = Vec::new();
         whole.for_each_child(|child| operands.push(child));
-        let which = types.iter().position(|ty| *ty == Type::Bool)?;
+        let which = types.iter().position(|ty| *ty == wanted)?;
         let operand = operands
             .get(which)
             .filter(|_| operands.len() == types.len())?;
@@ -214,7 +222,7 @@ impl<'a> Builder<'a> {
             .filter(|t| matches!(t, Type::Vector(_)))
             .collect();
         let problem = if tys.contains(&Type::Bool) {
-            let culprit = self.condition_in(span, &tys);
+            let culprit = self.operand_of(span, &tys, Type::Bool);
             let shown = culprit.as_deref().unwrap_or("…");
             problem.with_hint(format!(
                 "a condition is no number: `if {shown} then 1 else 0` is one"
@@ -226,9 +234,12 @@ impl<'a> Builder<'a> {
                 "a vector has real components: take re(…) or im(…) of the complex number",
             )
         } else {
-            problem
-                .with_label("takes reals only")
-                .with_hint("take re(…), im(…) or abs(…) of the complex number")
+            problem.with_label("takes real numbers only").with_hint(
+                match self.operand_of(span, &tys, Type::Complex) {
+                    Some(text) => advice_for(Type::Complex, false, &text),
+                    None => "take re(…), im(…) or abs(…) of the complex number".to_owned(),
+                },
+            )
         };
         self.report(problem)
     }
@@ -240,6 +251,7 @@ impl<'a> Builder<'a> {
         whole: Span,
     ) -> Value {
         let mut left = self.expr(first);
+        let mut left_id = first;
         // the whole has the brackets around its first and last operand, their own places have not
         let mut left_span = Span::new(whole.start, self.span(first).end);
         let mut all: Option<Id> = None;
@@ -250,13 +262,14 @@ impl<'a> Builder<'a> {
                 span = Span::new(span.start, whole.end);
             }
             left_span = self.span(right);
-            let right = self.expr(right);
+            let right_id = right;
+            let right = self.expr(right_id);
             if failed {
                 // one mistake in a chain is enough
-                left = right;
+                (left, left_id) = (right, right_id);
                 continue;
             }
-            match self.compare(op, &left, &right, span) {
+            match self.compare(op, (&left, left_id), (&right, right_id), span) {
                 Value::Scalar(step) => {
                     all = Some(match all {
                         Some(all) => self.graph.apply(Prim::And, &[all, step]),
@@ -265,7 +278,7 @@ impl<'a> Builder<'a> {
                 }
                 _ => failed = true,
             }
-            left = right;
+            (left, left_id) = (right, right_id);
         }
         match all {
             Some(all) if !failed => Value::Scalar(all),
@@ -273,14 +286,21 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn compare(&mut self, op: CompareOp, a: &Value, b: &Value, span: Span) -> Value {
+    fn compare(
+        &mut self,
+        op: CompareOp,
+        (a, a_id): (&Value, ExprId),
+        (b, b_id): (&Value, ExprId),
+        span: Span,
+    ) -> Value {
         let (Some(ta), Some(tb)) = (a.ty(&self.graph), b.ty(&self.graph)) else {
             return Value::Error;
         };
         let equality = matches!(op, CompareOp::Equal | CompareOp::NotEqual);
         let fits = |t| t == Type::Real || (equality && t == Type::Complex);
         if !fits(ta) || !fits(tb) {
-            let culprit = if fits(ta) { tb } else { ta };
+            let (culprit, id) = if fits(ta) { (tb, b_id) } else { (ta, a_id) };
+            let text = shortened(&print_expr(&self.file.exprs, id));
             let problem = Diagnostic::error(
                 "type-mismatch",
                 span,
@@ -291,8 +311,12 @@ impl<'a> Builder<'a> {
                 },
             );
             return self.report(match culprit {
-                Type::Complex => problem.with_hint("compare abs(z), re(z) or im(z)"),
-                Type::Vector(_) => problem.with_hint("compare components, or |p|"),
+                Type::Complex => problem.with_hint(format!(
+                    "compare `abs({text})`, `re({text})` or `im({text})`"
+                )),
+                Type::Vector(_) => {
+                    problem.with_hint(format!("compare components, or the length `|{text}|`"))
+                }
                 _ => problem.with_hint("join conditions with `and`, `or`, `not`"),
             });
         }
@@ -415,5 +439,19 @@ impl<'a> Builder<'a> {
                 _ => "both must be numbers, or vectors of one length".to_owned(),
             }),
         )
+    }
+}
+
+/// How a value becomes what is wanted, in its own text.
+fn advice_for(found: Type, wants_vector: bool, text: &str) -> String {
+    let is_name = text.chars().all(|c| c.is_alphanumeric() || c == '_');
+    match found {
+        Type::Complex => format!("take `re({text})`, `im({text})` or `abs({text})`"),
+        Type::Bool => format!("a condition is no number: `if {text} then 1 else 0` is one"),
+        Type::Vector(_) if !wants_vector && is_name => {
+            format!("take a component such as `{text}.x`, or the length `|{text}|`")
+        }
+        Type::Vector(_) if !wants_vector => format!("take a component, or the length `|{text}|`"),
+        _ => super::builtins::advice(found, wants_vector).to_owned(),
     }
 }

@@ -252,8 +252,10 @@ impl<'a> Checker<'a> {
             ),
         );
         self.diagnostics.push(match formula.ty {
-            Type::Complex => problem.with_hint("show abs(f), re(f) or im(f), or use `domain`"),
-            Type::Vector(_) => problem.with_hint("show its length |v|, or a component such as v.x"),
+            Type::Complex => {
+                problem.with_hint("show its `abs(…)`, `re(…)` or `im(…)`, or use `domain`")
+            }
+            Type::Vector(_) => problem.with_hint(self.hint_for_vector(subject)),
             _ => problem.with_hint(self.hint_for_condition(subject)),
         });
         None
@@ -261,6 +263,24 @@ impl<'a> Checker<'a> {
 }
 
 impl Checker<'_> {
+    /// How a vector becomes something to draw.
+    fn hint_for_vector(&self, subject: Subject) -> String {
+        let body = match subject {
+            Subject::Formula(body) => body,
+            Subject::Function(function) => function.body,
+        };
+        let text = shortened(&print_expr(&self.file.exprs, body));
+        match &self.file.exprs[body] {
+            Expr::Where { .. } | Expr::If { .. } => {
+                "show its length `|…|`, or a component of it".to_owned()
+            }
+            Expr::Vector(_) | Expr::Name(_) | Expr::Call { .. } => {
+                format!("show its length `|{text}|`, or a component such as `{text}.x`")
+            }
+            _ => format!("show its length `|{text}|`, or a component such as `({text}).x`"),
+        }
+    }
+
     /// How a condition becomes something to draw.
     fn hint_for_condition(&self, subject: Subject) -> String {
         let exprs = &self.file.exprs;
