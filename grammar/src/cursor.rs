@@ -170,21 +170,22 @@ impl<'a> Parser<'a> {
             .map_or_else(Span::default, |token| token.span)
     }
 
-    /// Place of the brackets that open here, with what is inside of them, where they end soon.
-    pub(crate) fn brackets_ahead(&self) -> Option<Span> {
+    /// Place of the brackets that open `at` places on, with what is inside of them, where they end soon.
+    pub(crate) fn brackets_ahead(&self, at: usize) -> Option<Span> {
         const FAR: usize = 40;
-        let closing = match self.kind() {
+        let opening = self.ahead(at);
+        let closing = match opening {
             TokenKind::LParen => TokenKind::RParen,
             TokenKind::LBrace => TokenKind::RBrace,
             _ => return None,
         };
         let mut depth = 0_usize;
-        for n in 0..FAR {
+        for n in at..at + FAR {
             let kind = self.ahead(n);
-            depth += usize::from(kind == self.kind());
+            depth += usize::from(kind == opening);
             depth -= usize::from(kind == closing);
             if depth == 0 {
-                return Some(self.span().join(self.span_ahead(n)));
+                return Some(self.span_ahead(at).join(self.span_ahead(n)));
             }
         }
         None

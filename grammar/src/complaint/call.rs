@@ -20,7 +20,11 @@ impl Parser<'_> {
             _ => None,
         };
         let inverse = inverse.filter(|inverse| self.scope.is_builtin(inverse));
-        let arguments = self.brackets_ahead();
+        let opens = (0..4).find(|&n| self.ahead(n) == TokenKind::LParen);
+        // the brackets of LaTeX are made: they have the place of what is inside
+        let arguments = opens
+            .and_then(|n| self.brackets_ahead(n))
+            .filter(|span| span.start >= place.end && span.text(self.text).starts_with('('));
         let shown = arguments.map_or_else(|| "(…)".to_owned(), |span| self.short(span));
         let hint = match inverse {
             Some(inverse) => format!(

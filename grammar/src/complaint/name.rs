@@ -435,7 +435,9 @@ impl Parser<'_> {
                 (opening.join(cond.span), hint)
             }
             _ => {
-                let Some(value) = self.brackets_ahead().filter(|_| self.at(TokenKind::LBrace))
+                let Some(value) = self
+                    .brackets_ahead(0)
+                    .filter(|_| self.at(TokenKind::LBrace))
                 else {
                     return false;
                 };

@@ -79,7 +79,7 @@ impl Parser<'_> {
                 use TokenKind::{Greater, GreaterEqual, Less, LessEqual};
                 matches!(self.ahead(n), Greater | GreaterEqual | Less | LessEqual)
             });
-            if compares && !self.running_follows() {
+            if compares && !self.at(TokenKind::LParen) && !self.running_follows() {
                 let condition = self.short(self.rest());
                 let message = "`for` is no word of the language";
                 return self.complain(
@@ -187,6 +187,11 @@ impl Parser<'_> {
             self.span()
         } else {
             lower.span
+        };
+        let span = if self.at(TokenKind::Colon) {
+            span.join(self.span_ahead(1))
+        } else {
+            span
         };
         let in_form = self.open_parens > 0 && self.statement != StatementKind::Param;
         let hint = match &self.exprs[lower.id] {
