@@ -53,7 +53,11 @@ fn orbit(c: [f64; 2], steps: usize) -> ([f64; 2], usize) {
 fn collatz(mut n: u64) -> f64 {
     let mut steps = 0.0;
     while n != 1 {
-        n = if n % 2 == 0 { n / 2 } else { 3 * n + 1 };
+        n = if n.is_multiple_of(2) {
+            n / 2
+        } else {
+            3 * n + 1
+        };
         steps += 1.0;
     }
     steps

@@ -8,7 +8,8 @@ use super::super::calculus::{
 };
 use super::super::suggest::{quoted, shortened};
 use super::super::{is_builtin_function, is_builtin_value};
-use super::{FREE_NAMES, Walk, listed, wrong_arity};
+use super::arity::wrong_arity;
+use super::{FREE_NAMES, Walk, listed};
 
 impl<'a> Walk<'a, '_> {
     /// The operator that a call means, where the program has no function of that name.
