@@ -449,7 +449,10 @@ impl<'a> Builder<'a> {
             Diagnostic::error(
                 "type-mismatch",
                 span,
-                format!("{what} must be real, and this is {}", ty.in_words()),
+                format!(
+                    "{what} must be a real number, and this is {}",
+                    ty.in_words()
+                ),
             )
             .with_hint(hint),
         );
