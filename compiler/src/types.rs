@@ -30,6 +30,19 @@ impl Type {
         })
     }
 
+    /// The type in words, with its article: "a real number".
+    #[must_use]
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Real => "a real number",
+            Self::Complex => "a complex number",
+            Self::Vector(2) => "a vec2",
+            Self::Vector(3) => "a vec3",
+            Self::Vector(_) => "a vec4",
+            Self::Bool => "a condition",
+        }
+    }
+
     /// Number of real columns that a value has in tables.
     #[must_use]
     pub fn columns(self) -> usize {

@@ -126,6 +126,11 @@ impl<'a> Parser<'a> {
         self.here = self.ahead(0);
     }
 
+    /// Index of the first token of the statement.
+    pub(crate) fn start(&self) -> usize {
+        self.start
+    }
+
     /// Index of the token here.
     pub(crate) fn position(&self) -> usize {
         self.at
@@ -155,6 +160,46 @@ impl<'a> Parser<'a> {
         match self.at.checked_sub(n + 1) {
             Some(at) if at >= self.start => self.tokens.get(at).map_or(TokenKind::End, |t| t.kind),
             _ => TokenKind::End,
+        }
+    }
+
+    /// Place of the token `n` places before the last one; empty where there is none.
+    pub(crate) fn span_behind(&self, n: usize) -> Span {
+        let at = self.at.checked_sub(n + 1).filter(|&at| at >= self.start);
+        at.and_then(|at| self.tokens.get(at))
+            .map_or_else(Span::default, |token| token.span)
+    }
+
+    /// Place of the brackets that open `at` places on, with what is inside of them, where they end soon.
+    pub(crate) fn brackets_ahead(&self, at: usize) -> Option<Span> {
+        const FAR: usize = 40;
+        let opening = self.ahead(at);
+        let closing = match opening {
+            TokenKind::LParen => TokenKind::RParen,
+            TokenKind::LBrace => TokenKind::RBrace,
+            _ => return None,
+        };
+        let mut depth = 0_usize;
+        for n in at..at + FAR {
+            let kind = self.ahead(n);
+            depth += usize::from(kind == opening);
+            depth -= usize::from(kind == closing);
+            if depth == 0 {
+                return Some(self.span_ahead(at).join(self.span_ahead(n)));
+            }
+        }
+        None
+    }
+
+    /// Place of the rest of the statement; empty at its end.
+    pub(crate) fn rest(&self) -> Span {
+        match self
+            .end
+            .checked_sub(1)
+            .and_then(|last| self.tokens.get(last))
+        {
+            Some(last) if self.at < self.end => self.span().join(last.span),
+            _ => self.span(),
         }
     }
 

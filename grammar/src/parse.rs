@@ -6,6 +6,7 @@ use crate::diagnostic::limit;
 use crate::layout::{Layout, layout};
 use crate::paste::translate;
 use crate::scope::Scope;
+use crate::stray::join_pairs;
 use crate::token::{Token, tokenize};
 use crate::{Diagnostic, Span};
 
@@ -77,6 +78,7 @@ pub(crate) fn read(text: &str, is_function: &dyn Fn(&str) -> bool) -> Reading {
     let items = parser.file();
     diagnostics.append(&mut parser.diagnostics);
     diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
+    join_pairs(text, &mut diagnostics);
     limit(&mut diagnostics);
     let mut foreign = pasted.foreign;
     foreign.append(&mut parser.foreign);

@@ -13,6 +13,116 @@ pub(crate) fn complaint(culprit: char, span: Span) -> Diagnostic {
     }
 }
 
+/// Joins the complaints about characters that belong together in one line, such as both quotation marks around a text:
+/// that is one mistake. The diagnostics are in the order of their places.
+pub(crate) fn join_pairs(text: &str, diagnostics: &mut Vec<Diagnostic>) {
+    let family = |diagnostic: &Diagnostic| match diagnostic.span.text(text).chars().next() {
+        _ if diagnostic.code != "stray-character" => None,
+        Some('"' | '“' | '”' | '„' | '‟' | '«' | '»') => Some('"'),
+        Some('⌊' | '⌋') => Some('⌊'),
+        Some('⌈' | '⌉') => Some('⌈'),
+        Some('‖' | '∥') => Some('‖'),
+        Some('⟨' | '⟩') => Some('⟨'),
+        Some('∂') => Some('∂'),
+        _ => None,
+    };
+    let mut open: Option<(char, usize)> = None;
+    let mut kept: Vec<Diagnostic> = Vec::with_capacity(diagnostics.len());
+    for diagnostic in diagnostics.drain(..) {
+        let found = family(&diagnostic);
+        let first = open.and_then(|(family, at)| Some((family, kept.get_mut(at)?)));
+        let twin = first.filter(|(family, first)| {
+            let between = Span::new(first.span.start, diagnostic.span.end).text(text);
+            found == Some(*family) && between.len() < 200 && !between.contains('\n')
+        });
+        match twin {
+            Some((family, first)) => {
+                *first = of_pair(text, family, first.span.join(diagnostic.span));
+                if family == '∂' {
+                    with_variable(text, first);
+                }
+                open = None;
+            }
+            None => {
+                if let Some(family) = found {
+                    open = Some((family, kept.len()));
+                }
+                kept.push(diagnostic);
+            }
+        }
+    }
+    // `in [0, 1]`: the range has been complained about
+    let ranges: Vec<Span> = kept
+        .iter()
+        .filter(|d| matches!(d.code, "bad-range" | "range-as-condition"))
+        .map(|d| d.span)
+        .collect();
+    kept.retain(|d| {
+        let is_inside = |range: &Span| range.start <= d.span.start && d.span.end <= range.end;
+        d.code != "stray-character" || !ranges.iter().any(is_inside)
+    });
+    *diagnostics = kept;
+}
+
+/// `∂f/∂x`: the name behind the second sign is the variable.
+fn with_variable(text: &str, diagnostic: &mut Diagnostic) {
+    let rest = text.get(diagnostic.span.end as usize..).unwrap_or_default();
+    let letters = rest.chars().take(20).take_while(|c| c.is_alphanumeric());
+    let variable: String = letters.collect();
+    let whole = diagnostic.span.text(text);
+    let what = whole
+        .trim_start_matches('∂')
+        .trim_end_matches(['∂', '/', ' ']);
+    let is_wrapped = what.starts_with('(') && what.ends_with(')');
+    let inner = what
+        .get(1..what.len().saturating_sub(1))
+        .filter(|_| is_wrapped);
+    let what = shorten(inner.unwrap_or(what));
+    if !variable.is_empty() && !what.is_empty() {
+        let length = u32::try_from(variable.len()).unwrap_or_default();
+        diagnostic.span = Span::new(diagnostic.span.start, diagnostic.span.end + length);
+        diagnostic.hint = Some(format!("write `diff({what}, {variable})`"));
+    }
+}
+
+/// One complaint about both characters of a pair, with what is between them.
+fn of_pair(text: &str, family: char, span: Span) -> Diagnostic {
+    let whole = span.text(text);
+    let mut inside = whole.chars();
+    inside.next();
+    inside.next_back();
+    let inside = shorten(inside.as_str().trim());
+    let (message, hint) = match family {
+        '"' => (
+            "the language has no texts".to_owned(),
+            format!("write `{inside}`, without quotation marks"),
+        ),
+        '⌊' => (
+            "stray characters `⌊ ⌋`".to_owned(),
+            format!("write `floor({inside})`"),
+        ),
+        '⌈' => (
+            "stray characters `⌈ ⌉`".to_owned(),
+            format!("write `ceil({inside})`"),
+        ),
+        '‖' => (
+            "stray characters `‖ ‖`".to_owned(),
+            format!("write `|{inside}|` for the length"),
+        ),
+        '⟨' => (
+            "stray characters `⟨ ⟩`".to_owned(),
+            format!("write `({inside})` for a vector, `dot(a, b)` for the inner product"),
+        ),
+        _ => {
+            let what = inside.trim_end_matches(['/', ' ']);
+            let hint =
+                format!("write `diff({what}, x)`, with the name of the variable in place of x");
+            ("`∂` is no sign of the language".to_owned(), hint)
+        }
+    };
+    Diagnostic::error("stray-character", span, message).with_hint(hint)
+}
+
 /// A text of at most thirty characters, the rest elided.
 pub(crate) fn shorten(text: &str) -> String {
     const LIMIT: usize = 30;
@@ -102,35 +212,37 @@ fn hint(c: char) -> Option<String> {
         '"' | '“' | '”' | '„' | '‟' | '«' | '»' => {
             "the language has no texts; remove the quotation marks"
         }
-        '[' | ']' => "write `(a, b)` for a vector, `lo..hi` for a range and `p.x` for a component",
-        '?' => "write `if c then a else b`",
-        '%' => "write `mod(a, b)` for a remainder",
+        '[' | ']' => "a vector is `(a, b)`, a range `lo..hi`, a component `p.x`",
+        '?' => "a choice is `if c then a else b`",
+        '%' => "a remainder is `mod(a, b)`, one per cent is `1/100`",
         '&' => "write `and`",
-        '~' => "write `not a`, `-a`, or `==` for equal",
-        '$' | '@' | '\\' | '`' => "names are letters, digits and `_`",
+        '~' => "the opposite is `not a` or `-a`, equal is `==`",
+        '$' | '@' | '\\' | '`' => "remove it: names are letters, digits and `_`",
         'ⁿ' => "write `^n`",
         'ⁱ' => "write `^i`",
         '⁺' | '⁻' | '⁼' | '⁽' | '⁾' => "write `^` and the exponent",
-        '≡' | '≟' => "write `==` to compare",
-        '≈' => "write `|a - b| < 1e-3`, or how near you want it",
+        '≡' | '≟' => "write `==`",
+        '≈' => "say how near: `|a - b| < 1e-3`",
         '₀'..='₉' => "a subscript belongs directly behind a name, as in `x₀`",
         '½' => "write `1/2`",
         '⅓' => "write `1/3`",
         '¼' => "write `1/4`",
         '¾' => "write `3/4`",
-        '∛' => "write `x^(1/3)`",
-        '∜' => "write `x^(1/4)`",
-        '∫' => "write `integral(expr, t, a, b)`",
-        '∂' => "write `diff(expr, x)` or `f'(x)`",
-        '∇' => "write `grad(f)`",
-        '‖' | '∥' => "write `|p|` for the length",
-        '⌊' | '⌋' => "write `floor(x)`",
-        '⌈' | '⌉' => "write `ceil(x)`",
-        '⟨' | '⟩' => "write `(a, b)` for a vector, `dot(a, b)` for the inner product",
+        '∛' => "a root is a power: `x^(1/3)`",
+        '∜' => "a root is a power: `x^(1/4)`",
+        '∫' => "an integral is `integral(t^2, t, a, b)`; not available in this version",
+        '∂' => "a derivative is `diff(x^2 y, x)`, or `f'(x)`",
+        '∇' => "a gradient is `grad(f)(x, y)`, or `grad(x^2 y, x, y)`",
+        '‖' | '∥' => "the length is `|p|`",
+        '⌊' | '⌋' => "write it as a function: `floor(x)`",
+        '⌈' | '⌉' => "write it as a function: `ceil(x)`",
+        '⟨' | '⟩' => "a vector is `(a, b)`, the inner product `dot(a, b)`",
         '″' => "write `''`",
-        '°' => "angles are in radians; write `x π/180` for degrees",
+        '°' => "angles are in radians: write `radians(90)` for 90°",
         '±' | '∓' => "write the two formulas, one with `+` and one with `-`",
-        '→' | '↦' | '⇒' => "write `name(x) = …` to define a function",
+        '→' | '↦' | '⇒' => "a function is defined by `name(x) = …`",
+        '\u{304}' | '\u{305}' => "the conjugate is `conj(z)`",
+        '\u{300}'..='\u{36F}' => "remove the mark above or below the letter",
         '\u{FFFD}' => "save the file as UTF-8",
         _ if c.is_control() || is_invisible(c) => "remove it",
         _ if c.is_alphabetic() => "names are Latin and Greek letters, digits and `_`",

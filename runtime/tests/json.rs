@@ -133,10 +133,23 @@ fn programs(folder: &Path) -> Vec<String> {
     names
 }
 
+/// The `.pull` files of the folders of a folder, as paths from there.
+fn programs_of_folders(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let groups = entries.map(|entry| entry.unwrap().path());
+    let mut names: Vec<String> = Vec::new();
+    for group in groups.filter(|path| path.is_dir()) {
+        let name = group.file_name().unwrap().to_str().unwrap();
+        names.extend(programs(&group).iter().map(|p| format!("{name}/{p}")));
+    }
+    names.sort();
+    names
+}
+
 #[test]
 fn every_wrong_program_fits_the_schema() {
     let folder = root().join("tests/data/errors");
-    let names = programs(&folder);
+    let names = programs_of_folders(&folder);
     assert!(names.len() >= 60);
     let inputs: Vec<&str> = names.iter().map(String::as_str).collect();
     // Without the expectations, one of which would end a comment.
@@ -144,6 +157,8 @@ fn every_wrong_program_fits_the_schema() {
     for name in &names {
         let text = std::fs::read_to_string(folder.join(name)).unwrap();
         let end = text.find("\n//!").map_or(0, |at| at + 1);
+        let group = Path::new(name).parent().unwrap();
+        std::fs::create_dir_all(stripped.path().join(group)).unwrap();
         std::fs::write(stripped.path().join(name), &text[..end]).unwrap();
     }
     let (code, value, errors) = check(stripped.path(), &inputs, "");

@@ -74,6 +74,8 @@ pub struct Expected {
 /// A wrong program.
 #[derive(Clone, Debug)]
 pub struct WrongProgram {
+    /// Its folder: the mistake that it is about.
+    pub group: String,
     /// Name of its file.
     pub name: String,
     /// The program, without the expectations.
@@ -82,16 +84,38 @@ pub struct WrongProgram {
     pub expected: Vec<Expected>,
 }
 
-/// The wrong programs of `tests/data/errors`; the format is described there.
+/// Where the wrong programs are; the format is described there.
+const WRONG: &str = "tests/data/errors";
+
+/// The groups of wrong programs, by name: the folders in `tests/data/errors`.
+///
+/// # Panics
+/// The folder cannot be read.
 #[must_use]
-pub fn wrong_programs() -> Vec<WrongProgram> {
-    files("tests/data/errors", "pull")
-        .into_iter()
-        .map(wrong_program)
-        .collect()
+pub fn wrong_groups() -> Vec<String> {
+    let folder = root().join(WRONG);
+    let entries = fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+    let mut out: Vec<String> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.is_dir())
+        .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
+        .collect();
+    out.sort();
+    out
 }
 
-fn wrong_program(source: Source) -> WrongProgram {
+/// The wrong programs, group by group.
+#[must_use]
+pub fn wrong_programs() -> Vec<WrongProgram> {
+    let of_group = |group: String| {
+        let sources = files(&format!("{WRONG}/{group}"), "pull");
+        let programs = sources.into_iter().map(move |s| wrong_program(&group, s));
+        programs.collect::<Vec<_>>()
+    };
+    wrong_groups().into_iter().flat_map(of_group).collect()
+}
+
+fn wrong_program(group: &str, source: Source) -> WrongProgram {
     let at = match source.text.find("\n//!") {
         Some(at) => at + 1,
         None => 0,
@@ -103,6 +127,7 @@ fn wrong_program(source: Source) -> WrongProgram {
     let expected: Vec<Expected> = expected.collect();
     assert!(!expected.is_empty(), "{}: nothing is expected", source.name);
     WrongProgram {
+        group: group.into(),
         text: text.to_owned(),
         expected,
         name: source.name,

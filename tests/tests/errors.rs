@@ -2,7 +2,7 @@
 
 use pullback_compiler::compile;
 use pullback_grammar::Diagnostic;
-use pullback_tests::corpus::{Expected, WrongProgram, wrong_programs};
+use pullback_tests::corpus::{Expected, WrongProgram, read, root, wrong_groups, wrong_programs};
 use pullback_tests::holds;
 
 /// Codes that are warnings.
@@ -59,12 +59,13 @@ fn complaints(case: &WrongProgram) -> Vec<String> {
 #[test]
 fn every_wrong_program_gives_its_diagnostics() {
     let cases = wrong_programs();
-    assert!(cases.len() >= 60, "only {} wrong programs", cases.len());
+    assert!(cases.len() >= 370, "only {} wrong programs", cases.len());
     let mut failures = Vec::new();
     for case in &cases {
         let complaints = complaints(case);
         if !complaints.is_empty() {
-            failures.push(format!("{}\n  {}", case.name, complaints.join("\n  ")));
+            let (group, name) = (&case.group, &case.name);
+            failures.push(format!("{group}/{name}\n  {}", complaints.join("\n  ")));
         }
     }
     assert!(
@@ -74,6 +75,77 @@ fn every_wrong_program_gives_its_diagnostics() {
         cases.len(),
         failures.join("\n")
     );
+}
+
+#[test]
+fn the_table_of_groups_is_complete() {
+    let readme = read(&root().join("tests/data/errors/README.md"));
+    let row = |line: &str| {
+        let (group, rest) = line.strip_prefix("| `")?.split_once("` | ")?;
+        let (mistake, count) = rest.strip_suffix(" |")?.rsplit_once(" | ")?;
+        assert!(!mistake.trim().is_empty(), "{group}: which mistake?");
+        Some((group.to_owned(), count.parse::<usize>().ok()?))
+    };
+    let listed: Vec<(String, usize)> = readme.lines().filter_map(row).collect();
+    let cases = wrong_programs();
+    let count = |group: &String| cases.iter().filter(|c| c.group == *group).count();
+    let groups = wrong_groups().into_iter();
+    let found: Vec<(String, usize)> = groups.map(|g| (g.clone(), count(&g))).collect();
+    assert_eq!(listed, found);
+    let mut names: Vec<&str> = cases.iter().map(|c| c.name.as_str()).collect();
+    names.sort_unstable();
+    let twice = names.windows(2).find(|pair| pair[0] == pair[1]);
+    assert_eq!(twice, None, "a name of two programs");
+}
+
+/// The text that a hint gives for what lies under the span: "write `…`" or "did you mean `…`?", where nothing is left
+/// out of it.
+fn replacement(found: &Diagnostic) -> Option<&str> {
+    let hint = found.hint.as_deref()?;
+    let rest = hint
+        .strip_prefix("write `")
+        .or_else(|| hint.strip_prefix("did you mean `"))?;
+    let (text, _) = rest.split_once('`')?;
+    (!text.contains('…')).then_some(text)
+}
+
+/// What is wrong with the hints of a program: where each of them gives a text, and that is put in, no diagnostic may be
+/// left.
+fn bad_replacement(case: &WrongProgram) -> Option<String> {
+    let mut found = compile(&case.text).diagnostics;
+    found.sort_by_key(|d| std::cmp::Reverse(d.span.start));
+    let mut mended = case.text.clone();
+    for problem in &found {
+        let range = problem.span.start as usize..problem.span.end as usize;
+        mended.replace_range(range, replacement(problem)?);
+    }
+    let left = compile(&mended).diagnostics;
+    let shown: Vec<String> = left.iter().map(|d| show(d, &mended)).collect();
+    let name = &case.name;
+    (!left.is_empty()).then(|| format!("{name}\n  {mended}  {}", shown.join("\n  ")))
+}
+
+#[test]
+fn what_hints_say_compiles() {
+    let cases = wrong_programs();
+    let replaced = |case: &&WrongProgram| {
+        let found = compile(&case.text).diagnostics;
+        found.iter().all(|d| replacement(d).is_some())
+    };
+    let count = cases.iter().filter(replaced).count();
+    assert!(count >= 88, "only {count} hints give a text");
+    let bad: Vec<String> = cases.iter().filter_map(bad_replacement).collect();
+    assert!(bad.is_empty(), "{}", bad.join("\n"));
+}
+
+/// Prints every diagnostic of the suite for a review:
+/// `cargo test -p pullback-tests --test errors -- --ignored --nocapture every_diagnostic_for_review`
+#[test]
+#[ignore = "prints a text to be read"]
+fn every_diagnostic_for_review() {
+    for case in wrong_programs() {
+        println!("=== {}/{}\n{}", case.group, case.name, rendered(&case.text));
+    }
 }
 
 /// Rendered as the command line shows them, without colour.
@@ -94,7 +166,7 @@ fn of_corpus(name: &str) -> String {
 fn diagnostics_read_well() {
     let names = [
         "unknown-function-sine",
-        "several-stages",
+        "stages",
         "ambiguous-division",
         "missing-closing-call",
         "duplicate-function",

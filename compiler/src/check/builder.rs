@@ -6,7 +6,6 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::bounds::Bounds;
-use super::builtins::advice;
 use super::fold::FoldBudget;
 use super::iteration::Iteration;
 use super::library::MAX_LIBRARY_DEPTH;
@@ -372,17 +371,21 @@ impl<'a> Builder<'a> {
                 Some(Type::Real) => ids.extend(value.ids()),
                 Some(ty) => {
                     let span = self.file.exprs.span(item);
+                    let hint = match ty {
+                        Type::Vector(_) => "join vectors by `vec3(…)` or `vec4(…)`".to_owned(),
+                        _ => self.advice_at(ty, false, span),
+                    };
                     self.report(
                         Diagnostic::error(
                             "type-mismatch",
                             span,
-                            format!("a component of a vector is real, found {ty}"),
+                            format!(
+                                "a component of a vector is a real number, and this is {}",
+                                ty.in_words()
+                            ),
                         )
-                        .with_label(format!("this is {ty}"))
-                        .with_hint(match ty {
-                            Type::Vector(_) => "join vectors by vec3(…) or vec4(…)",
-                            _ => advice(ty, false),
-                        }),
+                        .with_label(format!("this is {}", ty.in_words()))
+                        .with_hint(hint),
                     );
                     failed = true;
                 }

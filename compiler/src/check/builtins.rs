@@ -124,7 +124,7 @@ fn mismatch(b: &mut Builder, span: Span, expected: &str, found: &Value) -> Value
         Diagnostic::error(
             "type-mismatch",
             span,
-            format!("expected {expected}, found {ty}"),
+            format!("{expected} is needed here, and this is {}", ty.in_words()),
         )
         .with_hint(advice(ty, expected.contains("vec"))),
     )
@@ -134,7 +134,7 @@ fn mismatch(b: &mut Builder, span: Span, expected: &str, found: &Value) -> Value
 pub fn advice(found: Type, wants_vector: bool) -> &'static str {
     match found {
         Type::Complex => "take re(…), im(…) or abs(…) of the complex number",
-        Type::Bool => "a condition is not a number: write if … then 1 else 0",
+        Type::Bool => "a condition is no number: `if … then 1 else 0` is one",
         Type::Vector(_) if wants_vector => {
             "vectors must have the same number of components; a swizzle such as p.xy shortens one"
         }
@@ -225,7 +225,7 @@ fn cross(b: &mut Builder, args: &[Value], span: Span) -> Value {
         match arg {
             Value::Vector(items) if items.len() == 3 => {}
             Value::Error => return Value::Error,
-            _ => return mismatch(b, span, "vec3", arg),
+            _ => return mismatch(b, span, "a vec3", arg),
         }
     }
     let (p, q) = (args[0].ids(), args[1].ids());
@@ -248,7 +248,7 @@ fn rotate(b: &mut Builder, args: &[Value], span: Span) -> Value {
         (Value::Vector(items), _) if items.len() == 2 => {
             return mismatch(b, span, "a real angle", &args[1]);
         }
-        _ => return mismatch(b, span, "vec2", &args[0]),
+        _ => return mismatch(b, span, "a vec2", &args[0]),
     };
     if b.graph.ty(angle) != Ty::Real {
         return mismatch(b, span, "a real angle", &args[1]);

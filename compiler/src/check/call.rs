@@ -5,7 +5,6 @@ use pullback_grammar::{Diagnostic, Span};
 use smallvec::SmallVec;
 
 use super::builder::Known;
-use super::builtins::advice;
 use super::library::LibraryFunction;
 use super::names::{listed, signature};
 use super::scope::Scope;
@@ -169,17 +168,20 @@ impl<'a> Builder<'a> {
                     "type-mismatch",
                     span,
                     format!(
-                        "{} is {ty}, found {found}",
-                        quoted(&function.params[k].name.text)
+                        "{} is {}, and this is {}",
+                        quoted(&function.params[k].name.text),
+                        ty.in_words(),
+                        found.in_words()
                     ),
                 )
-                .with_label(format!("this is {found}"))
+                .with_label(format!("this is {}", found.in_words()))
                 .with_related(
                     function.params[k].name.span,
                     format!("{ty} in {}", signature(function)),
                 );
                 let wants_vector = matches!(ty, Type::Vector(_));
-                self.report(problem.with_hint(advice(found, wants_vector)))
+                let hint = self.advice_at(found, wants_vector, span);
+                self.report(problem.with_hint(hint))
             }
         }
     }
@@ -359,7 +361,7 @@ fn written(function: &LibraryFunction) -> String {
 }
 
 fn does_not_take(name: &str, types: &[Type], span: Span) -> Diagnostic {
-    let shown: Vec<String> = types.iter().map(Type::to_string).collect();
+    let shown: Vec<&str> = types.iter().map(|ty| ty.in_words()).collect();
     Diagnostic::error(
         "type-mismatch",
         span,

@@ -122,8 +122,11 @@ impl<'a> Builder<'a> {
                 let span = self.span(term);
                 return self.report(
                     Diagnostic::error("type-mismatch", span, "a condition cannot be summed up")
-                        .with_label("this is bool")
-                        .with_hint("count where it holds: if … then 1 else 0"),
+                        .with_label("this is a condition")
+                        .with_hint(format!(
+                            "to count where it holds, write `if {} then 1 else 0`",
+                            shortened(&pullback_grammar::print_expr(&self.file.exprs, term))
+                        )),
                 );
             }
             Some(_) => {}
@@ -192,8 +195,11 @@ impl<'a> Builder<'a> {
         let message = format!("the state {} cannot be a condition", quoted(&name.text));
         self.report(
             Diagnostic::error("type-mismatch", span, message)
-                .with_label("this is bool")
-                .with_hint("keep a number: if … then 1 else 0"),
+                .with_label("this is a condition")
+                .with_hint(format!(
+                    "write `if {} then 1 else 0` to keep a number",
+                    shortened(&pullback_grammar::print_expr(&self.file.exprs, *value))
+                )),
         )
     }
 
@@ -315,19 +321,22 @@ impl<'a> Builder<'a> {
 
     fn unsettled(&mut self, name: &Name, (start, was): (ExprId, Type), (step, is): (ExprId, Type)) {
         let hint = match (was, is) {
-            (_, Type::Bool) => "keep a number: if … then 1 else 0".to_owned(),
+            (_, Type::Bool) => format!(
+                "write `if {} then 1 else 0` to keep a number",
+                shortened(&pullback_grammar::print_expr(&self.file.exprs, step))
+            ),
             (Type::Real, Type::Vector(_)) => match &self.file.exprs[start] {
                 Expr::Number(_) | Expr::Name(_) => {
                     let text = pullback_grammar::print_expr(&self.file.exprs, start);
-                    format!("start with {is}({})", shortened(&text))
+                    format!("start with `{is}({})`", shortened(&text))
                 }
-                _ => format!("start with a vector such as {is}(0)"),
+                _ => format!("start with a vector such as `{is}(0)`"),
             },
-            (Type::Vector(_), Type::Real) => format!("give every component: {was}(…)"),
+            (Type::Vector(_), Type::Real) => format!("give every component: `{was}(…)`"),
             (Type::Vector(_), Type::Vector(_)) => {
                 "give both the same number of components".to_owned()
             }
-            (Type::Real, _) => "start with a complex number such as 0 + 0i".to_owned(),
+            (Type::Real, _) => "start with a complex number such as `0 + 0i`".to_owned(),
             _ => super::builtins::advice(is, matches!(was, Type::Vector(_))).to_owned(),
         };
         let (span, started) = (self.span(step), self.span(start));
@@ -336,12 +345,14 @@ impl<'a> Builder<'a> {
                 "type-mismatch",
                 span,
                 format!(
-                    "{} starts as {was}, but a step makes it {is}",
-                    quoted(&name.text)
+                    "{} starts as {}, but a step makes it {}",
+                    quoted(&name.text),
+                    was.in_words(),
+                    is.in_words()
                 ),
             )
-            .with_label(format!("this is {is}"))
-            .with_related(started, format!("this is {was}"))
+            .with_label(format!("this is {}", is.in_words()))
+            .with_related(started, format!("this is {}", was.in_words()))
             .with_hint(hint),
         );
     }
@@ -438,13 +449,17 @@ impl<'a> Builder<'a> {
             return Some(*id);
         }
         let span = self.span(id);
+        let hint = self.advice_at(ty, false, span);
         self.report(
             Diagnostic::error(
                 "type-mismatch",
                 span,
-                format!("{what} must be real, this is {ty}"),
+                format!(
+                    "{what} must be a real number, and this is {}",
+                    ty.in_words()
+                ),
             )
-            .with_hint(super::builtins::advice(ty, false)),
+            .with_hint(hint),
         );
         None
     }
@@ -526,7 +541,10 @@ impl<'a> Builder<'a> {
                     "give the parameter a range: `param {} = … in 0..100`",
                     shortened(&param.name.text)
                 )),
-            None => problem.with_hint(format!("state a maximum: min({}, 1000)", shortened(&text))),
+            None => problem.with_hint(format!(
+                "state a maximum: `min({}, 1000)`",
+                shortened(&text)
+            )),
         };
         self.report(problem);
     }

@@ -5,6 +5,7 @@ mod builder;
 mod builtins;
 mod calculus;
 mod call;
+mod familiar;
 mod fold;
 mod iteration;
 mod library;

@@ -1,19 +1,19 @@
 //! Names: every name that is used must mean something, and no definition may need itself.
 
+mod arity;
 mod binding;
+mod calculus;
+mod unknown;
 
-use pullback_grammar::ast::{Expr, ExprId, Exprs, File, Function, Item, Name, Setting};
-use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
+use pullback_grammar::ast::{BinaryOp, Expr, ExprId, Exprs, File, Function, Item, Name, Setting};
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
-
-mod calculus;
 
 use super::scope::Scope;
 use super::suggest::{quoted, shortened};
 use super::symbols::reserved;
-use super::{Symbols, builtins, is_builtin_function, is_builtin_value, library, nearest};
-use crate::table;
+use super::{Symbols, is_builtin_function, is_builtin_value, nearest};
+use arity::{builtin_arity, wrong_arity};
 
 /// Longest chain of functions that call each other.
 pub const MAX_CALL_DEPTH: usize = 64;
@@ -79,6 +79,10 @@ struct Walk<'a, 'd> {
     free: Vec<&'static str>,
     /// The definition that is being walked.
     current: Option<&'a str>,
+    /// Its value.
+    body: Option<ExprId>,
+    /// Inputs that it lacks, which has been said.
+    excused: Vec<&'a str>,
     /// Which definitions each definition uses, and where.
     uses: FxHashMap<&'a str, Vec<(&'a str, Span)>>,
 }
@@ -99,6 +103,8 @@ impl<'a, 'd> Walk<'a, 'd> {
             fixed: None,
             free: Vec::new(),
             current: None,
+            body: None,
+            excused: Vec::new(),
             uses: FxHashMap::default(),
         }
     }
@@ -139,8 +145,11 @@ impl<'a, 'd> Walk<'a, 'd> {
 
     fn definition(&mut self, name: &'a str, body: ExprId) {
         self.current = Some(name);
+        self.body = Some(body);
         self.expr(body);
         self.current = None;
+        self.body = None;
+        self.excused.clear();
     }
 
     /// An expression that must be a constant; `what` says which.
@@ -173,7 +182,10 @@ impl<'a, 'd> Walk<'a, 'd> {
     /// Depth is bounded by the parser; left-leaning chains of operators are walked in a loop.
     fn expr(&mut self, id: ExprId) {
         let mut id = id;
-        while let Expr::Binary { lhs, rhs, .. } = &self.exprs[id] {
+        while let Expr::Binary { op, lhs, rhs } = &self.exprs[id] {
+            if *op == BinaryOp::Div && self.leibniz(id, *lhs, *rhs) {
+                return;
+            }
             self.expr(*rhs);
             id = *lhs;
         }
@@ -196,8 +208,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                     self.calculus(operator, (callee, span), *primes, args);
                     return;
                 }
-                if !self.primes(callee, *primes, args) {
-                    self.callee(callee, args.len());
+                if !self.primes(callee, exprs.span(id), *primes, args) {
+                    self.callee(callee, args, exprs.span(id));
                 }
                 args.iter().for_each(|a| self.expr(*a));
             }
@@ -267,6 +279,9 @@ impl<'a, 'd> Walk<'a, 'd> {
                 .push(not_constant(name.span, what).with_label("an input of formulas"));
             return;
         }
+        if FREE_NAMES.contains(&text) && self.current.is_some() && self.missing_input(name) {
+            return;
+        }
         let problem = if self.symbols.functions.contains_key(text) || is_builtin_function(text) {
             Diagnostic::error(
                 "function-without-call",
@@ -294,93 +309,6 @@ impl<'a, 'd> Walk<'a, 'd> {
             .push(not_constant(name.span, what).with_label(label));
     }
 
-    fn unknown(&self, name: &Name) -> Diagnostic {
-        let text = name.text.as_str();
-        let problem = Diagnostic::error(
-            "unknown-name",
-            name.span,
-            format!("unknown name {}", quoted(text)),
-        )
-        .with_label("not defined");
-        if let Some(local) = self.pending.iter().rev().find(|n| n.text == text) {
-            return Diagnostic::error(
-                "used-before-definition",
-                name.span,
-                format!("{} is used before it is defined", quoted(text)),
-            )
-            .with_related(local.span, "defined here")
-            .with_hint("each local sees those before it: move the definition up");
-        }
-        if self.diagnostics.len() > MAX_DIAGNOSTICS {
-            // will not be listed
-            return problem;
-        }
-        let inputs: &[&str] = if self.in_formula { &FREE_NAMES } else { &[] };
-        if let Some(product) = self.as_product(text) {
-            return problem.with_hint(format!("for a product write `{product}`"));
-        }
-        if let Some(call) = self.as_call(text) {
-            return problem.with_hint(format!("for a call write `{call}`"));
-        }
-        let candidates = self
-            .scope
-            .names()
-            .chain(self.symbols.names())
-            .chain(inputs.iter().copied())
-            .chain(["pi", "tau", "phi", "e", "time", "pixel"]);
-        match nearest(text, candidates) {
-            Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),
-            None if FREE_NAMES.contains(&text) && !self.in_formula => {
-                problem.with_hint(format!("{}, or define it", self.how_to_take(text)))
-            }
-            None => problem.with_hint(format!(
-                "define it: `{0} = …`, or `param {0} = 1 in 0..2` for a slider",
-                shortened(text)
-            )),
-        }
-    }
-
-    /// How the definition that is walked gets an input.
-    fn how_to_take(&self, input: &str) -> String {
-        let current = self.current.unwrap_or("f");
-        match self.symbols.functions.get(current) {
-            Some(function) => {
-                let mut params: Vec<&str> = function
-                    .params
-                    .iter()
-                    .map(|p| p.name.text.as_str())
-                    .collect();
-                params.push(input);
-                format!(
-                    "write `{}({}) = …`",
-                    shortened(current),
-                    shortened(&params.join(", "))
-                )
-            }
-            None => format!("write `{}({input}) = …`", shortened(current)),
-        }
-    }
-
-    /// `xy` as `x y`, where every letter has a meaning.
-    fn as_product(&self, text: &str) -> Option<String> {
-        let letters: Vec<String> = text.chars().take(9).map(String::from).collect();
-        let known =
-            |l: &String| self.is_value(l) || (self.in_formula && FREE_NAMES.contains(&l.as_str()));
-        ((2..=8).contains(&letters.len()) && letters.iter().all(known)).then(|| letters.join(" "))
-    }
-
-    /// `sinx` as `sin(x)`, where both parts have a meaning.
-    fn as_call(&self, text: &str) -> Option<String> {
-        let places = text.char_indices().map(|(at, _)| at).skip(2).take(12);
-        let mut splits = places.map(|at| text.split_at(at));
-        let is_call = |&(function, argument): &(&str, &str)| {
-            let is_input = self.in_formula && FREE_NAMES.contains(&argument);
-            is_builtin_function(function) && (self.is_value(argument) || is_input)
-        };
-        let (function, argument) = splits.find(is_call)?;
-        Some(format!("{function}({})", shortened(argument)))
-    }
-
     fn usage(&self, name: &str) -> String {
         match self.symbols.functions.get(name) {
             Some(function) => signature(function),
@@ -389,8 +317,9 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    fn callee(&mut self, callee: &'a Name, given: usize) {
+    fn callee(&mut self, callee: &'a Name, args: &[ExprId], whole: Span) {
         let text = callee.text.as_str();
+        let given = args.len();
         if let Some(function) = self.symbols.functions.get(text).copied() {
             self.record_use(text, callee.span);
             if function.params.len() != given {
@@ -407,44 +336,21 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
         if let Some((expected, usage)) = builtin_arity(text, given) {
             if let Some(expected) = expected {
-                self.diagnostics
-                    .push(wrong_arity(callee, given, &expected, &usage));
+                let problem = wrong_arity(callee, given, &expected, &usage);
+                self.diagnostics.push(match self.other_arity(text, args) {
+                    Some(hint) => problem.with_hint(hint),
+                    None => problem,
+                });
             }
             return;
         }
-        self.diagnostics.push(self.unknown_function(callee));
-    }
-
-    fn unknown_function(&self, callee: &Name) -> Diagnostic {
-        let text = callee.text.as_str();
-        let problem = Diagnostic::error(
-            "unknown-function",
-            callee.span,
-            format!("unknown function {}", quoted(text)),
-        )
-        .with_label("not defined");
-        if self.diagnostics.len() > MAX_DIAGNOSTICS {
-            // will not be listed
-            return problem;
+        let mut problem = self.unknown_function(callee, args);
+        let hint = problem.hint.as_deref().unwrap_or_default();
+        if hint.starts_with("write `") && hint.contains('(') || hint.starts_with("write `|") {
+            // the hint is of the whole call
+            problem.span = whole;
         }
-        let known = table::rows()
-            .iter()
-            .flat_map(|r| r.names.iter().copied())
-            .chain(
-                builtins::builtins()
-                    .iter()
-                    .flat_map(|b| b.names.iter().copied()),
-            )
-            .chain(library::library_functions().map(|f| f.name))
-            .chain(super::calculus::operators().iter().map(|o| o.name))
-            .chain(self.symbols.functions.keys().copied());
-        match nearest(text, known) {
-            Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),
-            None => problem.with_hint(format!(
-                "define it: `{0}(x) = …`, or write a product as `{0} (…)`",
-                shortened(text)
-            )),
-        }
+        self.diagnostics.push(problem);
     }
 
     fn record_use(&mut self, used: &'a str, span: Span) {
@@ -474,8 +380,11 @@ fn unknown_type(ty: &Name) -> Diagnostic {
     };
     match nearest(&ty.text, types) {
         _ if !meant.is_empty() => problem.with_hint(format!("write `{meant}`")),
+        _ if ty.text.starts_with("vec") => {
+            problem.with_hint("a vector has 2 to 4 components: `vec2`, `vec3` or `vec4`")
+        }
         Some(near) => problem.with_hint(format!("did you mean {}?", quoted(near))),
-        None => problem.with_hint("types are real, complex, vec2, vec3, vec4 and bool"),
+        None => problem.with_hint("types are `real`, `complex`, `vec2`, `vec3` and `vec4`"),
     }
 }
 
@@ -509,56 +418,6 @@ pub fn whole_signature(function: &Function) -> String {
         })
         .collect();
     format!("{}({})", function.name.text, params.join(", "))
-}
-
-fn wrong_arity(callee: &Name, given: usize, expected: &str, usage: &str) -> Diagnostic {
-    let plural = if expected == "1" { "" } else { "s" };
-    Diagnostic::error(
-        "wrong-arity",
-        callee.span,
-        format!(
-            "{} takes {expected} argument{plural}, not {given}",
-            quoted(&callee.text)
-        ),
-    )
-    .with_label(format!("called with {given}"))
-    .with_hint(format!("it is written {usage}"))
-}
-
-/// For a builtin: what it expects where `given` is wrong, and how it is written.
-fn builtin_arity(name: &str, given: usize) -> Option<(Option<String>, String)> {
-    if let Some(builtin) = builtins::by_name(name) {
-        let expected = (!builtin.arity.contains(&given)).then(|| {
-            let (lo, hi) = (builtin.arity.start(), builtin.arity.end());
-            if lo == hi {
-                lo.to_string()
-            } else {
-                format!("{lo} to {hi}")
-            }
-        });
-        return Some((expected, listed(&[builtin.usage])));
-    }
-    let row = table::by_name(name);
-    let definitions = library::by_name(name).filter(|_| !library::is_private(name));
-    let definitions = definitions.unwrap_or_default();
-    let mut usages: Vec<&str> = definitions.iter().map(|f| f.usage.as_str()).collect();
-    let mut arities: Vec<usize> = definitions.iter().map(|f| f.types.len()).collect();
-    if let Some(row) = row {
-        let variadic = matches!(row.prim, crate::ir::Prim::Min | crate::ir::Prim::Max);
-        let arity = row.typing.arity();
-        arities.push(if variadic { given.max(arity) } else { arity });
-        usages.push(row.usage);
-    }
-    if usages.is_empty() {
-        return None;
-    }
-    arities.sort_unstable();
-    arities.dedup();
-    let expected = (!arities.contains(&given)).then(|| {
-        let counts: Vec<String> = arities.iter().map(usize::to_string).collect();
-        listed(&counts).replace('`', "")
-    });
-    Some((expected, listed(&usages)))
 }
 
 /// Reports definitions that need themselves, and chains of calls that are too long.
@@ -657,5 +516,5 @@ fn cycle(symbols: &Symbols, path: &[(&str, usize)], callee: &str, span: Span) ->
         format!("{} calls itself", quoted(callee)),
     )
     .with_label(&chain)
-    .with_hint("a formula has no recursion; write the steps out")
+    .with_hint("a formula has no recursion; repeat steps by `iterate(n, z = start, step)`, add up by `sum(k in 1..n, term)`")
 }

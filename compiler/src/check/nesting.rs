@@ -127,8 +127,9 @@ impl Builder<'_> {
                 "{} steps within {around}, more than {MAX_STEPS} together",
                 loops.steps
             );
-            Diagnostic::error("too-many-steps", span, message)
-                .with_hint("the product of the maxima of nested loops counts")
+            Diagnostic::error("too-many-steps", span, message).with_hint(
+                "take fewer steps in one of them: the product of the maxima of nested loops counts",
+            )
         } else {
             let message = format!("{} steps are more than {MAX_STEPS}", loops.steps);
             Diagnostic::error("too-many-steps", span, message)

@@ -1,11 +1,12 @@
 //! Operators: which types they take, and what they build.
 
 use pullback_grammar::ast::{BinaryOp, CompareOp, ExprId, UnaryOp};
-use pullback_grammar::{Diagnostic, Span};
+use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
+use pullback_grammar::{Diagnostic, Span, print_expr};
 use smallvec::SmallVec;
 
 use super::builtins::length;
-use super::{Builder, Value};
+use super::{Builder, Value, shortened};
 use crate::ir::{Id, Prim, Ty};
 use crate::numeral::Numeral;
 use crate::types::Type;
@@ -69,6 +70,41 @@ impl<'a> Builder<'a> {
         }
     }
 
+    /// The text of what stands at a place, cut where it is long.
+    pub(super) fn text_at(&self, span: Span) -> Option<String> {
+        if self.diagnostics.len() > MAX_DIAGNOSTICS {
+            // will not be listed
+            return None;
+        }
+        let exprs = &self.file.exprs;
+        let outermost = exprs.iter().filter(|(_, _, at)| *at == span).last()?;
+        Some(shortened(&print_expr(exprs, outermost.0)))
+    }
+
+    /// How what stands at a place becomes what is wanted, in its own text: a vector, or a real number.
+    pub(super) fn advice_at(&self, found: Type, wants_vector: bool, span: Span) -> String {
+        match self.text_at(span) {
+            Some(text) => advice_for(found, wants_vector, &text),
+            None => super::builtins::advice(found, wants_vector).to_owned(),
+        }
+    }
+
+    /// The text of the first operand or argument at a place that has a type, where `types` are those of all of them.
+    fn operand_of(&self, span: Span, types: &[Type], wanted: Type) -> Option<String> {
+        if self.diagnostics.len() > MAX_DIAGNOSTICS {
+            return None;
+        }
+        let exprs = &self.file.exprs;
+        let (_, whole, _) = exprs.iter().filter(|(_, _, at)| *at == span).last()?;
+        let mut operands = Vec::new();
+        whole.for_each_child(|child| operands.push(child));
+        let which = types.iter().position(|ty| *ty == wanted)?;
+        let operand = operands
+            .get(which)
+            .filter(|_| operands.len() == types.len())?;
+        Some(shortened(&print_expr(exprs, *operand)))
+    }
+
     pub(super) fn condition_expected(&mut self, value: &Value, span: Span) -> Value {
         let Some(ty) = value.ty(&self.graph) else {
             return Value::Error;
@@ -77,10 +113,19 @@ impl<'a> Builder<'a> {
             Diagnostic::error(
                 "condition-not-bool",
                 span,
-                format!("expected a condition, found {ty}"),
+                format!("a condition is needed here, and this is {}", ty.in_words()),
             )
-            .with_label(format!("this is {ty}"))
-            .with_hint("write a comparison such as x > 0"),
+            .with_label(format!("this is {}", ty.in_words()))
+            .with_hint(match self.text_at(span) {
+                Some(text) if text.parse::<f64>().is_ok() => {
+                    "a number is no condition; a choice is `if c then a else b`".to_owned()
+                }
+                Some(text) if ty == Type::Real => {
+                    format!("write a comparison such as `{text} > 0`")
+                }
+                Some(text) => format!("write a comparison such as `|{text}| > 1`"),
+                None => "write a comparison such as `x > 0`".to_owned(),
+            }),
         )
     }
 
@@ -166,7 +211,7 @@ impl<'a> Builder<'a> {
             return Value::Error;
         }
         let row = crate::table::row(prim);
-        let shown: Vec<String> = tys.iter().map(Type::to_string).collect();
+        let shown: Vec<&str> = tys.iter().map(|ty| ty.in_words()).collect();
         let problem = Diagnostic::error(
             "type-mismatch",
             span,
@@ -177,7 +222,11 @@ impl<'a> Builder<'a> {
             .filter(|t| matches!(t, Type::Vector(_)))
             .collect();
         let problem = if tys.contains(&Type::Bool) {
-            problem.with_hint("a condition is not a number: write if … then 1 else 0")
+            let culprit = self.operand_of(span, &tys, Type::Bool);
+            let shown = culprit.as_deref().unwrap_or("…");
+            problem.with_hint(format!(
+                "a condition is no number: `if {shown} then 1 else 0` is one"
+            ))
         } else if vectors.len() > 1 && vectors.iter().any(|t| *t != vectors[0]) {
             problem.with_hint("vectors must have the same number of components; a swizzle such as p.xy shortens one")
         } else if tys.contains(&Type::Complex) && !vectors.is_empty() {
@@ -185,9 +234,12 @@ impl<'a> Builder<'a> {
                 "a vector has real components: take re(…) or im(…) of the complex number",
             )
         } else {
-            problem
-                .with_label("takes reals only")
-                .with_hint("take re(…), im(…) or abs(…) of the complex number")
+            problem.with_label("takes real numbers only").with_hint(
+                match self.operand_of(span, &tys, Type::Complex) {
+                    Some(text) => advice_for(Type::Complex, false, &text),
+                    None => "take re(…), im(…) or abs(…) of the complex number".to_owned(),
+                },
+            )
         };
         self.report(problem)
     }
@@ -199,6 +251,7 @@ impl<'a> Builder<'a> {
         whole: Span,
     ) -> Value {
         let mut left = self.expr(first);
+        let mut left_id = first;
         // the whole has the brackets around its first and last operand, their own places have not
         let mut left_span = Span::new(whole.start, self.span(first).end);
         let mut all: Option<Id> = None;
@@ -209,8 +262,14 @@ impl<'a> Builder<'a> {
                 span = Span::new(span.start, whole.end);
             }
             left_span = self.span(right);
-            let right = self.expr(right);
-            match self.compare(op, &left, &right, span) {
+            let right_id = right;
+            let right = self.expr(right_id);
+            if failed {
+                // one mistake in a chain is enough
+                (left, left_id) = (right, right_id);
+                continue;
+            }
+            match self.compare(op, (&left, left_id), (&right, right_id), span) {
                 Value::Scalar(step) => {
                     all = Some(match all {
                         Some(all) => self.graph.apply(Prim::And, &[all, step]),
@@ -219,7 +278,7 @@ impl<'a> Builder<'a> {
                 }
                 _ => failed = true,
             }
-            left = right;
+            (left, left_id) = (right, right_id);
         }
         match all {
             Some(all) if !failed => Value::Scalar(all),
@@ -227,22 +286,37 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn compare(&mut self, op: CompareOp, a: &Value, b: &Value, span: Span) -> Value {
+    fn compare(
+        &mut self,
+        op: CompareOp,
+        (a, a_id): (&Value, ExprId),
+        (b, b_id): (&Value, ExprId),
+        span: Span,
+    ) -> Value {
         let (Some(ta), Some(tb)) = (a.ty(&self.graph), b.ty(&self.graph)) else {
             return Value::Error;
         };
         let equality = matches!(op, CompareOp::Equal | CompareOp::NotEqual);
         let fits = |t| t == Type::Real || (equality && t == Type::Complex);
         if !fits(ta) || !fits(tb) {
-            let culprit = if fits(ta) { tb } else { ta };
+            let (culprit, id) = if fits(ta) { (tb, b_id) } else { (ta, a_id) };
+            let text = shortened(&print_expr(&self.file.exprs, id));
             let problem = Diagnostic::error(
                 "type-mismatch",
                 span,
-                format!("{culprit} values have no order to compare by"),
+                match culprit {
+                    Type::Complex => "complex numbers have no order to compare by",
+                    Type::Vector(_) => "vectors have no order to compare by",
+                    _ => "conditions have no order to compare by",
+                },
             );
             return self.report(match culprit {
-                Type::Complex => problem.with_hint("compare abs(z), re(z) or im(z)"),
-                Type::Vector(_) => problem.with_hint("compare components, or |p|"),
+                Type::Complex => problem.with_hint(format!(
+                    "compare `abs({text})`, `re({text})` or `im({text})`"
+                )),
+                Type::Vector(_) => {
+                    problem.with_hint(format!("compare components, or the length `|{text}|`"))
+                }
                 _ => problem.with_hint("join conditions with `and`, `or`, `not`"),
             });
         }
@@ -344,11 +418,40 @@ impl<'a> Builder<'a> {
             Diagnostic::error(
                 "type-mismatch",
                 b.1,
-                format!("the branches differ in type: {ta} and {tb}"),
+                format!(
+                    "the branches differ: {} and {}",
+                    ta.in_words(),
+                    tb.in_words()
+                ),
             )
-            .with_label(format!("this is {tb}"))
-            .with_related(a.1, format!("this is {ta}"))
-            .with_hint("give both the same type"),
+            .with_label(format!("this is {}", tb.in_words()))
+            .with_related(a.1, format!("this is {}", ta.in_words()))
+            .with_hint(match (ta, tb) {
+                (Type::Vector(_), Type::Vector(_)) => {
+                    "give both the same number of components".to_owned()
+                }
+                (Type::Vector(_), Type::Real) => match self.text_at(b.1) {
+                    Some(text) => {
+                        format!("write `{ta}({text})` for a vector with that in each component")
+                    }
+                    None => format!("make a vector of it: `{ta}(…)`"),
+                },
+                _ => "both must be numbers, or vectors of one length".to_owned(),
+            }),
         )
+    }
+}
+
+/// How a value becomes what is wanted, in its own text.
+fn advice_for(found: Type, wants_vector: bool, text: &str) -> String {
+    let is_name = text.chars().all(|c| c.is_alphanumeric() || c == '_');
+    match found {
+        Type::Complex => format!("take `re({text})`, `im({text})` or `abs({text})`"),
+        Type::Bool => format!("a condition is no number: `if {text} then 1 else 0` is one"),
+        Type::Vector(_) if !wants_vector && is_name => {
+            format!("take a component such as `{text}.x`, or the length `|{text}|`")
+        }
+        Type::Vector(_) if !wants_vector => format!("take a component, or the length `|{text}|`"),
+        _ => super::builtins::advice(found, wants_vector).to_owned(),
     }
 }

@@ -113,12 +113,15 @@ impl<'a> Builder<'a> {
         let problem = Diagnostic::error(
             "bad-swizzle",
             field.span,
-            format!("only vectors have components, this is {ty}"),
+            format!(
+                "only vectors have components, and this is {}",
+                ty.in_words()
+            ),
         );
         self.report(if ty == Type::Complex {
             problem.with_hint("the parts of a complex number are re(z) and im(z)")
         } else {
-            problem.with_hint("write `*` for a product; a vector is written (x, y)")
+            problem.with_hint("a vector is `(x, y)`; between numbers, a product has a blank or `*`")
         });
         None
     }
@@ -188,12 +191,17 @@ impl<'a> Builder<'a> {
             let problem = Diagnostic::error(
                 "type-mismatch",
                 span,
-                format!("{} is {wanted}, found {found}", quoted(&target)),
+                format!(
+                    "{} is {}, and this is {}",
+                    quoted(&target),
+                    wanted.in_words(),
+                    found.in_words()
+                ),
             )
-            .with_label(format!("this is {found}"));
+            .with_label(format!("this is {}", found.in_words()));
             return self.report(match (wanted, found) {
                 (Type::Vector(_), Type::Real) => {
-                    problem.with_hint(format!("for the same number in each write {wanted}(…)"))
+                    problem.with_hint(format!("for the same number in each write `{wanted}(…)`"))
                 }
                 _ => problem.with_hint(super::builtins::advice(
                     found,

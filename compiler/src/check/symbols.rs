@@ -127,6 +127,11 @@ pub fn reserved(name: &Name) -> Option<Diagnostic> {
             format!("`{}` is {what}", name.text),
         )
         .with_label("cannot be given another meaning")
-        .with_hint("use another name"),
+        .with_hint(match name.text.as_str() {
+            "i" => "use another name, such as `k` for a whole number",
+            "time" => "use another name, such as `t`",
+            "pi" | "π" | "tau" | "τ" | "phi" | "φ" => "use another name, such as `a` or `angle`",
+            _ => "use another name",
+        }),
     )
 }

@@ -2,11 +2,11 @@
 
 use super::settings::default_settings;
 use super::{MAX_SHOWS, Picture, Signature};
-use crate::check::{Builder, Symbols, nearest, quoted};
+use crate::check::{Builder, Symbols, nearest, quoted, shortened};
 use crate::scene::{Space, default_scene, scene, scenes};
 use crate::types::Type;
 use pullback_grammar::ast::{Expr, ExprId, File, Function, Item, Show};
-use pullback_grammar::{Diagnostic, Span};
+use pullback_grammar::{Diagnostic, Span, print_expr};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What a picture shows: a function, or a formula in free variables.
@@ -87,7 +87,10 @@ impl<'a> Checker<'a> {
             .items
             .iter()
             .filter_map(|item| match item {
-                Item::Formula(formula) => Some(formula.span),
+                // what could not be read may be no formula at all
+                Item::Formula(formula) if !matches!(self.file.exprs[formula.body], Expr::Error) => {
+                    Some(formula.span)
+                }
                 _ => None,
             })
             .collect();
@@ -119,7 +122,7 @@ impl<'a> Checker<'a> {
                         Span::default(),
                         "there is no formula to show",
                     )
-                    .with_hint("write one, such as sin(x^2 + y^2)"),
+                    .with_hint(self.hint_for_nothing()),
                 );
             }
             return None;
@@ -140,6 +143,33 @@ impl<'a> Checker<'a> {
         })
     }
 
+    /// `x = 2` names a number; as a curve it is the difference of its sides.
+    fn hint_for_nothing(&self) -> String {
+        let exprs = &self.file.exprs;
+        let curve = self.file.items.iter().find_map(|item| match item {
+            Item::Constant(constant) => {
+                let name = constant.name.text.as_str();
+                let side = match name {
+                    "x" | "y" | "z" => name,
+                    "xy" => "x y",
+                    "r" => "hypot(x, y)",
+                    "θ" => "atan2(y, x)",
+                    _ => return None,
+                };
+                let value = shortened(&print_expr(exprs, constant.value));
+                let value = match &exprs[constant.value] {
+                    Expr::Number(_) | Expr::Name(_) => value,
+                    _ => format!("({value})"),
+                };
+                Some(format!(
+                    "for a curve write `{side} - {value}`, without a name"
+                ))
+            }
+            _ => None,
+        });
+        curve.unwrap_or_else(|| "write one, such as `sin(x^2 + y^2)`".to_owned())
+    }
+
     pub(super) fn picture(&mut self, show: &'a Show) -> Option<Picture> {
         if show.scene.text.is_empty() {
             // the parser has reported that it is missing
@@ -156,6 +186,16 @@ impl<'a> Checker<'a> {
             self.diagnostics
                 .push(match nearest(&show.scene.text, names) {
                     Some(near) => problem.with_hint(format!("did you mean `{near}`?")),
+                    None if matches!(
+                        show.scene.text.as_str(),
+                        "contour" | "contours" | "plot" | "heatmap" | "curve" | "plane"
+                    ) =>
+                    {
+                        problem.with_hint("write `levels`")
+                    }
+                    None if matches!(show.scene.text.as_str(), "isosurface" | "plot3d" | "sdf") => {
+                        problem.with_hint("write `surface`")
+                    }
                     None => problem.with_hint(format!("scenes are {}", list.join(", "))),
                 });
             return None;
@@ -176,7 +216,10 @@ impl<'a> Checker<'a> {
                         show.args.len()
                     ),
                 )
-                .with_hint(format!("write `show {}(f)`", scene.name)),
+                .with_hint(format!(
+                    "show one after the other: `show {0}(f)`, and `show {0}(g)` in the next line",
+                    scene.name
+                )),
             );
             return None;
         };

@@ -50,7 +50,7 @@ impl<'a> Checker<'a> {
                     )
                     .with_label("the first end must be the lesser one")
                     .with_hint(if lo > hi {
-                        format!("write {}..{}", Numeral(hi), Numeral(lo))
+                        format!("write `{}..{}`", Numeral(hi), Numeral(lo))
                     } else {
                         "write two different ends".to_owned()
                     }),
@@ -69,7 +69,7 @@ impl<'a> Checker<'a> {
                     )
                     .with_related(span, "the range")
                     .with_hint(format!(
-                        "write {}..{} to include it",
+                        "make the range `{}..{}` to include it, or choose a default inside",
                         Numeral(lo.min(default)),
                         Numeral(hi.max(default))
                     )),
@@ -94,7 +94,10 @@ impl<'a> Checker<'a> {
                 let problem = Diagnostic::error(
                     "type-mismatch",
                     span,
-                    format!("{what} must be real, this is {ty}"),
+                    format!(
+                        "{what} must be a real number, and this is {}",
+                        ty.in_words()
+                    ),
                 );
                 self.diagnostics.push(if ty == Type::Complex {
                     problem.with_hint("use one parameter for each part, as in `a + b i`")

@@ -112,9 +112,13 @@ impl<'a> Checker<'a> {
                 Diagnostic::error(
                     "type-mismatch",
                     span,
-                    format!("`{}` is {wanted}, found {found}", spec.name),
+                    format!(
+                        "`{}` is a {wanted}, and this is {}",
+                        spec.name,
+                        found.in_words()
+                    ),
                 )
-                .with_label(format!("this is {found}"))
+                .with_label(format!("this is {}", found.in_words()))
                 .with_hint(format!(
                     "write a {wanted}, such as `{} = {example}`",
                     spec.name

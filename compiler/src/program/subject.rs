@@ -6,8 +6,8 @@ use crate::formula::{Formula, Input, argument_value, scalar_types};
 use crate::ir::Graph;
 use crate::scene::{Scene, Space, default_scene};
 use crate::types::Type;
-use pullback_grammar::ast::{ExprId, Function};
-use pullback_grammar::{Diagnostic, Span};
+use pullback_grammar::ast::{BinaryOp, CompareOp, Expr, ExprId, Function};
+use pullback_grammar::{Diagnostic, Span, print_expr};
 
 impl<'a> Checker<'a> {
     pub(super) fn subject_span(&self, subject: Subject) -> Span {
@@ -202,7 +202,7 @@ impl<'a> Checker<'a> {
             Some(other) => {
                 let name = default_scene(other).name;
                 format!(
-                    "write `show {name}({})`, or take the inputs: `{header}`",
+                    "show it by `show {name}({})`, or take the inputs: `{header}`",
                     shortened(&function.name.text)
                 )
             }
@@ -247,15 +247,64 @@ impl<'a> Checker<'a> {
             span,
             format!(
                 "`{}` shows {wanted}, but this is {}",
-                scene.name, formula.ty
+                scene.name,
+                formula.ty.in_words()
             ),
         );
         self.diagnostics.push(match formula.ty {
-            Type::Complex => problem.with_hint("show abs(f), re(f) or im(f), or use `domain`"),
-            Type::Vector(_) => problem.with_hint("show its length |v|, or a component such as v.x"),
-            _ => problem.with_hint("write if … then 1 else 0"),
+            Type::Complex => {
+                problem.with_hint("show its `abs(…)`, `re(…)` or `im(…)`, or use `domain`")
+            }
+            Type::Vector(_) => problem.with_hint(self.hint_for_vector(subject)),
+            _ => problem.with_hint(self.hint_for_condition(subject)),
         });
         None
+    }
+}
+
+impl Checker<'_> {
+    /// How a vector becomes something to draw.
+    fn hint_for_vector(&self, subject: Subject) -> String {
+        let body = match subject {
+            Subject::Formula(body) => body,
+            Subject::Function(function) => function.body,
+        };
+        let text = shortened(&print_expr(&self.file.exprs, body));
+        match &self.file.exprs[body] {
+            Expr::Where { .. } | Expr::If { .. } => {
+                "show its length `|…|`, or a component of it".to_owned()
+            }
+            Expr::Vector(_) | Expr::Name(_) | Expr::Call { .. } => {
+                format!("show its length `|{text}|`, or a component such as `{text}.x`")
+            }
+            _ => format!("show its length `|{text}|`, or a component such as `({text}).x`"),
+        }
+    }
+
+    /// How a condition becomes something to draw.
+    fn hint_for_condition(&self, subject: Subject) -> String {
+        let exprs = &self.file.exprs;
+        let Subject::Formula(body) = subject else {
+            return "a condition becomes a number by `if … then 1 else 0`".to_owned();
+        };
+        let shown = shortened(&print_expr(exprs, body));
+        match &exprs[body] {
+            Expr::Compare { first, rest } if matches!(rest.as_slice(), [(CompareOp::Equal, _)]) => {
+                let side = |id: ExprId| shortened(&print_expr(exprs, id));
+                let right = match &exprs[rest[0].1] {
+                    Expr::Binary {
+                        op: BinaryOp::Add | BinaryOp::Sub,
+                        ..
+                    } => {
+                        format!("({})", side(rest[0].1))
+                    }
+                    _ => side(rest[0].1),
+                };
+                let left = side(*first);
+                format!("write `{left} - {right}`, which is 0 where both sides agree")
+            }
+            _ => format!("write `if {shown} then 1 else 0`"),
+        }
     }
 }
 

@@ -94,6 +94,82 @@ impl Parser<'_> {
         );
     }
 
+    /// Braces without a single `:` hold no cases; `{1, 2, 3}` is a list of other languages. What is inside is left
+    /// unread where it ends soon.
+    pub(crate) fn is_foreign_list(&mut self, opened: &Opened) -> bool {
+        let Some(end) = self.end_of_list(0) else {
+            return false;
+        };
+        let whole = opened.span.join(self.span_ahead(end));
+        let inside = self.short(self.span().join(self.span_ahead(end.saturating_sub(1))));
+        let holds = |kind: TokenKind| (0..end).any(|n| self.ahead(n) == kind);
+        let compares = [
+            TokenKind::Less,
+            TokenKind::LessEqual,
+            TokenKind::Greater,
+            TokenKind::GreaterEqual,
+            TokenKind::EqualEqual,
+            TokenKind::NotEqual,
+            TokenKind::Equals,
+        ];
+        if let Some(value) = inside.strip_prefix("return ") {
+            let message = "a function is defined by `=`, not by braces";
+            self.report(
+                Diagnostic::error("foreign-statement", whole, message)
+                    .with_label("the body of a function in other languages")
+                    .with_hint(format!("write `= {value}`")),
+            );
+            self.abandon();
+            return true;
+        }
+        let (message, hint) = if holds(TokenKind::If) {
+            (
+                "these cases have no `:`",
+                "write the condition first: `{ x < 0: value, else: value }`".to_owned(),
+            )
+        } else if !holds(TokenKind::Comma) && compares.into_iter().any(holds) {
+            (
+                "braces with a condition alone",
+                format!("write the value behind it: `{{ {inside}: value }}`"),
+            )
+        } else if compares.into_iter().any(holds) {
+            return false;
+        } else {
+            (
+                "these braces hold no cases",
+                format!("write `({inside})`; braces hold cases: `{{ x < 0: -x, else: x }}`"),
+            )
+        };
+        if !self.is_hushed() {
+            self.report(
+                Diagnostic::error("missing-colon", whole, message)
+                    .with_label("no `condition: value`")
+                    .with_hint(hint),
+            );
+        }
+        for _ in 0..end {
+            self.bump();
+        }
+        self.close(opened);
+        self.mark_complained();
+        true
+    }
+
+    /// How many tokens stand before the `}` that closes the braces whose inside begins `from` tokens on, if that comes soon and no `:` is among them.
+    pub(crate) fn end_of_list(&self, from: usize) -> Option<usize> {
+        let mut depth = 0_usize;
+        for n in 0..60 {
+            match self.ahead(from + n) {
+                TokenKind::RBrace if depth == 0 => return Some(n),
+                TokenKind::Colon | TokenKind::End => return None,
+                TokenKind::LBrace | TokenKind::LParen => depth += 1,
+                TokenKind::RBrace | TokenKind::RParen => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+        }
+        None
+    }
+
     #[cold]
     pub(crate) fn complain_after_else(&mut self) {
         self.complain(
@@ -120,7 +196,7 @@ impl Parser<'_> {
             self.report(
                 Diagnostic::error("missing-colon", place, "missing `:`")
                     .with_label("expected `:` between these")
-                    .with_hint("write `{ condition: value, else: value }`"),
+                    .with_hint("a case is `condition: value`, as in `{ x < 0: -x, else: x }`"),
             );
             self.mark_complained();
             return;
@@ -129,9 +205,9 @@ impl Parser<'_> {
             return;
         }
         let hint = if is_else {
-            "write `else: value`"
+            "a case is `else: value`"
         } else {
-            "write `{ condition: value, else: value }`"
+            "a case is `condition: value`, as in `{ x < 0: -x, else: x }`"
         };
         let message = format!("missing `:` before {}", self.describe());
         self.complain(
@@ -143,15 +219,43 @@ impl Parser<'_> {
 
     /// What a comma outside of brackets may have been meant for.
     fn hint_for_comma(&self) -> &'static str {
-        let (before, after) = (self.last_span(), self.span_ahead(1));
-        let touches = before.end == self.span().start && self.span().end == after.start;
-        if self.behind() == TokenKind::Number && self.ahead(1) == TokenKind::Number && touches {
-            "the decimal point is `.`; write `(a, b)` for a vector"
+        let compares = (1..12).any(|n| {
+            use TokenKind::{Greater, GreaterEqual, Less, LessEqual, NotEqual};
+            let kind = self.ahead(n);
+            matches!(kind, Less | LessEqual | Greater | GreaterEqual | NotEqual)
+        });
+        if self.statement == StatementKind::Show {
+            "settings stand in braces: `show levels(f) { height = 2 }`"
+        } else if compares {
+            "for a condition write `if condition then value else nan`"
         } else if self.first_span().text(self.text) == "param" {
             "write one `param` on each line"
         } else {
-            "write `(a, b)` for a vector"
+            "for a vector write `(a, b)`, in brackets"
         }
+    }
+
+    /// Whether a comma stands between digits.
+    fn is_decimal_comma(&self) -> bool {
+        let (before, after) = (self.last_span(), self.span_ahead(1));
+        let touches = before.end == self.span().start && self.span().end == after.start;
+        self.behind() == TokenKind::Number && self.ahead(1) == TokenKind::Number && touches
+    }
+
+    /// `3,5`: the rest of the statement goes on behind it.
+    #[cold]
+    fn complain_decimal_comma(&mut self) {
+        let (whole, part) = (self.last_span(), self.span_ahead(1));
+        let number = format!("{}.{}", self.short(whole), self.short(part));
+        self.complain(
+            Diagnostic::error(
+                "unexpected-token",
+                whole.join(part),
+                "a comma between the digits of a number",
+            )
+            .with_label("the decimal point is `.`")
+            .with_hint(format!("write `{number}`")),
+        );
     }
 
     /// Complains that nothing readable goes on here; `opened` is the bracket around this place.
@@ -180,17 +284,19 @@ impl Parser<'_> {
             TokenKind::Then | TokenKind::Else => (
                 "unexpected-token",
                 format!("{quoted} without `if`"),
-                Some("write `if c then a else b`"),
+                Some("it belongs to a choice: `if c then a else b`"),
             ),
             TokenKind::In if opened.is_some() => (
                 "unexpected-token",
                 "`in` outside of a sum, product or integral".to_owned(),
-                Some("write `sum(k in 1..n, term)`, `product(…)` or `integral(t in a..b, expr)`"),
+                Some(
+                    "for a sum write `sum(k in 1..n, term)`; a condition on a range is `0 <= x <= 1`",
+                ),
             ),
             TokenKind::In => (
                 "unexpected-token",
                 "`in` outside of `param`".to_owned(),
-                Some("write `param name = value in lo..hi`"),
+                Some("a range belongs to a slider: `param name = value in lo..hi`"),
             ),
             TokenKind::Until => (
                 "unexpected-token",
@@ -200,13 +306,17 @@ impl Parser<'_> {
             TokenKind::DotDot => (
                 "unexpected-token",
                 format!("{quoted} outside of a range"),
-                Some("write `param name = value in lo..hi`"),
+                Some("a range belongs to a slider: `param name = value in lo..hi`"),
             ),
             TokenKind::Where => (
                 "unexpected-token",
                 "`where` cannot stand here".to_owned(),
                 Some("put brackets around the expression with its `where`"),
             ),
+            TokenKind::Comma if self.is_decimal_comma() => {
+                self.complain_decimal_comma();
+                return;
+            }
             TokenKind::Comma => (
                 "unexpected-token",
                 "`,` outside of brackets".to_owned(),
@@ -215,17 +325,17 @@ impl Parser<'_> {
             TokenKind::Semicolon => (
                 "unexpected-token",
                 "`;` inside of brackets".to_owned(),
-                Some("write `,` between arguments"),
+                Some("write `,`"),
             ),
             TokenKind::Colon => (
                 "unexpected-token",
                 "`:` outside of a list of cases".to_owned(),
-                Some("write `{ condition: value, else: value }`"),
+                Some("cases stand in braces: `{ x < 0: -x, else: x }`"),
             ),
             TokenKind::Name if defines && self.statement == StatementKind::Show => (
                 "missing-braces",
                 format!("setting {quoted} outside of braces"),
-                Some("write `show scene(f) { name = value }`"),
+                Some("settings stand in braces: `show levels(f) { height = 2 }`"),
             ),
             TokenKind::Name if defines && opened.is_none() => (
                 "missing-separator",
@@ -235,9 +345,13 @@ impl Parser<'_> {
             TokenKind::Name if defines => (
                 "missing-comma",
                 format!("missing `,` before {quoted}"),
-                Some("write `,` between the items"),
+                Some("put `,` between the items"),
             ),
-            _ => ("unexpected-token", format!("unexpected {quoted}"), None),
+            _ => (
+                "unexpected-token",
+                format!("{quoted} cannot stand here"),
+                Some("remove it, or write what is missing before it"),
+            ),
         };
         let mut diagnostic = Diagnostic::error(code, self.span(), message);
         diagnostic.hint = hint.map(str::to_owned);

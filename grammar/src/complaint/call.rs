@@ -20,16 +20,23 @@ impl Parser<'_> {
             _ => None,
         };
         let inverse = inverse.filter(|inverse| self.scope.is_builtin(inverse));
+        let opens = (0..4).find(|&n| self.ahead(n) == TokenKind::LParen);
+        // the brackets of LaTeX are made: they have the place of what is inside
+        let arguments = opens
+            .and_then(|n| self.brackets_ahead(n))
+            .filter(|span| span.start >= place.end && span.text(self.text).starts_with('('));
+        let shown = arguments.map_or_else(|| "(…)".to_owned(), |span| self.short(span));
         let hint = match inverse {
             Some(inverse) => format!(
-                "write `{inverse}(x)` for the inverse function, `1/{name}(x)` for one over the value"
+                "write `{inverse}{shown}` for the inverse function, `1/{name}{shown}` for one over the value"
             ),
-            None => format!("write `1/{name}(x)` for one over the value"),
+            None => format!("write `1/{name}{shown}` for one over the value"),
         };
+        let whole = callee.span.join(place);
         self.complain(
             Diagnostic::error(
                 "inverse-or-reciprocal",
-                callee.span.join(place),
+                arguments.map_or(whole, |span| whole.join(span)),
                 "the power -1 of a function has two meanings",
             )
             .with_label("the inverse function, or one over the value")
@@ -44,30 +51,73 @@ impl Parser<'_> {
         }
         let marks = "'".repeat(primes.min(4) as usize);
         let name = format!("{}{marks}", shorten(&callee.text));
-        let argument = match self.kind() {
-            TokenKind::Name | TokenKind::Number | TokenKind::Imaginary if !self.starts_line() => {
-                self.short(self.span())
-            }
-            _ => "x".to_owned(),
+        if let Some(form) = self.scope.form(&callee.text) {
+            let hint = format!("write `{name}({})`", form.example());
+            return self.complain_no_argument(callee.span, &name, hint);
+        }
+        let raised = self.at(TokenKind::Caret);
+        let brackets = raised && matches!(self.ahead(1), TokenKind::LParen | TokenKind::LBrace);
+        let argument = self
+            .bare_argument(if raised { 2 } else { 0 })
+            .filter(|_| !brackets);
+        let Some(argument) = argument else {
+            let hint = format!("write `{name}(…)`, with its argument in brackets");
+            return self.complain_no_argument(callee.span, &name, hint);
         };
-        let form = self.scope.form(&callee.text);
-        let hint = if let Some(form) = form {
-            format!("write `{name}({})`", form.example())
-        } else if self.at(TokenKind::Caret) {
+        let shown = self.short(argument);
+        let before = self.behind_by(1 + primes as usize);
+        let joins = matches!(
+            callee.text.as_str(),
+            "mod" | "fmod" | "dot" | "cross" | "min" | "max"
+        ) && matches!(before, TokenKind::Name | TokenKind::Number);
+        let (span, hint) = if joins {
+            let first = self.span_behind(1 + primes as usize);
+            let call = format!("{name}({}, {shown})", self.short(first));
+            (first.join(argument), format!("write `{call}`"))
+        } else if raised {
             let exponent = self.short(self.span_ahead(1));
-            format!("write `{name}({argument})^{exponent}` for a power of the value")
+            let call = format!("{name}({shown})^{exponent}");
+            let hint = format!("write `{call}`, which is a power of the value");
+            (callee.span.join(argument), hint)
         } else {
-            format!("write `{name}({argument})`")
+            let hint = format!("write `{name}({shown})`");
+            (callee.span.join(argument), hint)
         };
+        let message = format!("the argument of `{name}` has no brackets");
         self.complain(
-            Diagnostic::error(
-                "function-without-call",
-                callee.span,
-                format!("the function `{name}` without arguments"),
-            )
-            .with_label("a function is not a value")
-            .with_hint(hint),
+            Diagnostic::error("function-without-call", span, message)
+                .with_label("brackets are missing")
+                .with_hint(hint),
         );
+    }
+
+    /// The function is not called at all.
+    #[cold]
+    fn complain_no_argument(&mut self, place: Span, name: &str, hint: String) {
+        let message = format!("the function `{name}` without arguments");
+        self.complain(
+            Diagnostic::error("function-without-call", place, message)
+                .with_label("a function is not a value")
+                .with_hint(hint),
+        );
+    }
+
+    /// The operand without brackets that stands `at` places on, as the argument of a function: `x`, `2x`, `3πx`.
+    fn bare_argument(&self, at: usize) -> Option<Span> {
+        let is_operand = |at: usize| {
+            use TokenKind::{Imaginary, Name, Number};
+            matches!(self.ahead(at), Name | Number | Imaginary)
+        };
+        if !is_operand(at) || at == 0 && self.starts_line() {
+            return None;
+        }
+        let mut span = self.span_ahead(at);
+        let mut next = at + 1;
+        while is_operand(next) && self.span_ahead(next).start == span.end && next < at + 6 {
+            span = span.join(self.span_ahead(next));
+            next += 1;
+        }
+        Some(span)
     }
 
     /// The form that a call is; complains where its name is another one.
@@ -87,7 +137,7 @@ impl Parser<'_> {
         self.report(
             Diagnostic::error("foreign-name", callee.span, message)
                 .with_label("a name like any other")
-                .with_hint(format!("write `{name}({})`", meant.example())),
+                .with_hint(format!("write `{name}`")),
         );
         Some(meant)
     }
@@ -100,7 +150,7 @@ impl Parser<'_> {
         self.complain(
             Diagnostic::error("stray-prime", callee.span.join(self.last_span()), message)
                 .with_label("only a function of one variable has such a derivative")
-                .with_hint(format!("write `diff({name}(…), x)`")),
+                .with_hint(format!("its derivative is `diff({name}(…), x)`")),
         );
     }
 
@@ -151,7 +201,9 @@ impl Parser<'_> {
         self.complain(
             Diagnostic::error("stray-prime", name.span.join(self.last_span()), message)
                 .with_label("only a function has a derivative")
-                .with_hint("write `f'(x)`, or `diff(expr, x)`"),
+                .with_hint(
+                    "a derivative is `f'(x)` of a function, `diff(x^2, x)` of an expression",
+                ),
         );
     }
 }

@@ -191,7 +191,7 @@ impl Parser<'_> {
         self.complain(
             Diagnostic::error("missing-term", span, message)
                 .with_label(format!("expected `,` and {what} behind the range"))
-                .with_hint(format!("write `{name}({shown}, {term})`")),
+                .with_hint(format!("add a term behind it: `{name}({shown}, {term})`")),
         );
     }
 
@@ -234,7 +234,9 @@ impl Parser<'_> {
                 "an iteration without its greatest number of steps",
             )
             .with_label("expected a number first")
-            .with_hint(format!("write `iterate(100, {state} = …, step)`")),
+            .with_hint(format!(
+                "begin with a number: `iterate(100, {state} = …, step)`"
+            )),
         );
     }
 
@@ -259,7 +261,7 @@ impl Parser<'_> {
         self.complain(
             Diagnostic::error("until-not-last", self.span(), message)
                 .with_label("the condition is the last item")
-                .with_hint("write `iterate(n, z = start, step until condition)`"),
+                .with_hint("an iteration is `iterate(n, z = start, step until condition)`"),
         );
         self.skip_pieces(opened);
     }
@@ -296,7 +298,9 @@ impl Parser<'_> {
         self.complain(
             Diagnostic::error("missing-state", callee.span, message)
                 .with_label("expected `name = start` behind the number of steps")
-                .with_hint(format!("write `iterate({count}, z = start, step)`")),
+                .with_hint(format!(
+                    "an iteration is `iterate({count}, z = start, step)`"
+                )),
         );
     }
 

@@ -2,8 +2,8 @@
 
 use crate::Diagnostic;
 use crate::Span;
-use crate::ast::Name;
-use crate::cursor::Parser;
+use crate::ast::{Expr, ExprId, Name};
+use crate::cursor::{Node, Parser};
 use crate::stray::shorten;
 use crate::token::TokenKind;
 
@@ -41,7 +41,7 @@ impl Parser<'_> {
             self.complain(
                 Diagnostic::error("missing-name", span, message)
                     .with_label("expected a name")
-                    .with_hint("write `param name = value`"),
+                    .with_hint("a slider is `param name = value in lo..hi`"),
             );
             self.no_name()
         };
@@ -72,7 +72,7 @@ impl Parser<'_> {
             self.complain(
                 Diagnostic::error("missing-equals", span, message)
                     .with_label("expected `=`")
-                    .with_hint("write `name = value`"),
+                    .with_hint("a definition is `name = value`"),
             );
         }
     }
@@ -92,7 +92,7 @@ impl Parser<'_> {
                 self.complain(
                     Diagnostic::error("bad-parameter", span, message)
                         .with_label("expected a name")
-                        .with_hint("write `f(x) = …`"),
+                        .with_hint("a function is `f(x, y) = …`, with names in the brackets"),
                 );
             }
         }
@@ -109,7 +109,7 @@ impl Parser<'_> {
         self.complain(
             Diagnostic::error("missing-type", span, message)
                 .with_label("expected a type")
-                .with_hint("write `real`, `complex`, `vec2`, `vec3`, `vec4` or `bool`"),
+                .with_hint("types are `real`, `complex`, `vec2`, `vec3` and `vec4`"),
         );
         None
     }
@@ -124,12 +124,12 @@ impl Parser<'_> {
         let diagnostic = if matches!(before, TokenKind::Number | TokenKind::Imaginary) {
             Diagnostic::error("missing-digits", point, "missing digits after the point")
                 .with_label("expected a digit")
-                .with_hint("write `2.0` or `2`")
+                .with_hint("a number is `2.0` or `2`")
         } else {
             let message = format!("missing component before {}", self.describe());
             Diagnostic::error("missing-component", point, message)
                 .with_label("expected a component")
-                .with_hint("write `p.x` for a component, `*` for a product")
+                .with_hint("a component is `p.x`, a product `p * x`")
         };
         self.complain(diagnostic);
         None
@@ -310,7 +310,7 @@ impl Parser<'_> {
             self.complain(
                 Diagnostic::error("missing-comma", span, message)
                     .with_label("expected `,`")
-                    .with_hint("write `,` between settings"),
+                    .with_hint("put `,` between settings"),
             );
         }
         found
@@ -325,7 +325,7 @@ impl Parser<'_> {
             self.complain(
                 Diagnostic::error("missing-comma", span, message)
                     .with_label("expected `,`")
-                    .with_hint("write `,` between parameters"),
+                    .with_hint("put `,` between parameters"),
             );
         }
         found
@@ -345,7 +345,11 @@ impl Parser<'_> {
             self.complain(
                 Diagnostic::error("missing-equals", span, message)
                     .with_label("expected `=`")
-                    .with_hint(format!("write `{} = value`", shorten(&name.text))),
+                    .with_hint(if self.at(TokenKind::Colon) {
+                        "write `=`".to_owned()
+                    } else {
+                        format!("a setting is `{} = value`", shorten(&name.text))
+                    }),
             );
             if self.eat(TokenKind::Colon) {
                 return Some(name);
@@ -360,7 +364,7 @@ impl Parser<'_> {
             self.complain(
                 Diagnostic::error("missing-name", span, message)
                     .with_label("expected a name")
-                    .with_hint("write `{ name = value, name = lo..hi }`"),
+                    .with_hint("settings are `{ name = value, name = lo..hi }`"),
             );
         }
         None
@@ -382,6 +386,86 @@ impl Parser<'_> {
         found
     }
 
+    /// `if x in 0..1`: a condition on a range is written by comparisons.
+    #[cold]
+    pub(crate) fn range_as_condition(&mut self, subject: Node) -> Node {
+        self.bump();
+        let lower = self.disjunction();
+        let upper = if self.eat(TokenKind::DotDot) {
+            Some(self.disjunction())
+        } else {
+            None
+        };
+        let whole = subject.span.join(self.last_span());
+        let text = |node: Node| self.short(node.span);
+        let ends = match (&self.exprs[lower.id], upper) {
+            (_, Some(upper)) => Some((text(lower), text(upper))),
+            (Expr::Vector(ends), None) if ends.len() == 2 => {
+                let [a, b] = [ends[0], ends[1]].map(|id| self.short(self.exprs.span(id)));
+                Some((a, b))
+            }
+            _ => None,
+        };
+        let hint = match ends {
+            Some((a, b)) => format!("write `{a} <= {} <= {b}`", text(subject)),
+            None => "a condition on a range is `0 <= x <= 1`".to_owned(),
+        };
+        self.complain(
+            Diagnostic::error("range-as-condition", whole, "`in` makes no condition")
+                .with_label("compare with both ends")
+                .with_hint(hint),
+        );
+        self.error_node(whole)
+    }
+
+    /// `if (c, a, b)` and `if (c) { a } else { b }`, as in other languages; whether it was one of these.
+    pub(crate) fn is_foreign_conditional(&mut self, opening: Span, cond: Node) -> bool {
+        if self.at(TokenKind::Then) || self.is_hushed() {
+            return false;
+        }
+        let text = |id: &ExprId| self.short(self.exprs.span(*id));
+        let (whole, hint) = match &self.exprs[cond.id] {
+            Expr::Vector(items) => {
+                let shown: Vec<String> = items.iter().map(text).collect();
+                let hint = match shown.as_slice() {
+                    [c, a, b] => format!("write `if {c} then {a} else {b}`"),
+                    [c, a] => format!("write `if {c} then {a} else nan`"),
+                    _ => return false,
+                };
+                (opening.join(cond.span), hint)
+            }
+            _ => {
+                let Some(value) = self
+                    .brackets_ahead(0)
+                    .filter(|_| self.at(TokenKind::LBrace))
+                else {
+                    return false;
+                };
+                let inner = |span: Span| {
+                    let inside = Span::new(span.start + 1, span.end.saturating_sub(1));
+                    inside
+                        .text(self.text)
+                        .trim()
+                        .trim_end_matches(';')
+                        .to_owned()
+                };
+                let condition = self.short(cond.span);
+                let shown = shorten(&inner(value));
+                let hint = format!("write `if {condition} then {shown} else …`, without braces");
+                (opening.join(value), hint)
+            }
+        };
+        self.report(
+            Diagnostic::error("missing-then", whole, "a conditional of another language")
+                .with_label("`then` and `else` are missing")
+                .with_hint(hint),
+        );
+        if self.at(TokenKind::LBrace) {
+            self.abandon();
+        }
+        true
+    }
+
     #[cold]
     fn complain_conditional(&mut self, code: &'static str, word: &str, opening: Span) {
         if let Some(place) = self.retract_missing_operator(opening) {
@@ -389,7 +473,9 @@ impl Parser<'_> {
                 Diagnostic::error(code, place, format!("missing `{word}`"))
                     .with_label(format!("expected `{word}` between these"))
                     .with_related(opening, "the conditional begins here")
-                    .with_hint("write `if c then a else b`"),
+                    .with_hint(format!(
+                        "add `{word}` there: `if condition then value else value`"
+                    )),
             );
             self.mark_complained();
             return;
@@ -397,12 +483,20 @@ impl Parser<'_> {
         if self.is_hushed() {
             return;
         }
+        let begun = self.short(opening.join(self.last_span()));
+        let hint = match (word, self.kind()) {
+            ("then", TokenKind::Colon) => "write `then`".to_owned(),
+            ("else", TokenKind::Colon | TokenKind::End) | ("else", TokenKind::RParen) => {
+                format!("say what the value is otherwise: `{begun} else 0`, or `else nan` for none")
+            }
+            _ => format!("go on with `{begun} {word} …`"),
+        };
         let message = format!("missing `{word}` before {}", self.describe());
         self.complain(
             Diagnostic::error(code, self.span(), message)
                 .with_label(format!("expected `{word}`"))
                 .with_related(opening, "the conditional begins here")
-                .with_hint("write `if c then a else b`"),
+                .with_hint(hint),
         );
     }
 }

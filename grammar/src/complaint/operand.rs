@@ -11,7 +11,14 @@ impl Parser<'_> {
     pub(crate) fn no_operand(&mut self) -> Node {
         match self.kind() {
             TokenKind::Error => {
+                let begins_notation = matches!(self.span().text(self.text), "∂" | "∫");
                 self.skip_strays();
+                if begins_notation {
+                    // what follows is no formula: it has been said how to write it
+                    let place = self.last_span();
+                    self.abandon();
+                    return self.error_node(place);
+                }
                 if self.operand_follows() {
                     return self.primary();
                 }
@@ -28,7 +35,7 @@ impl Parser<'_> {
                 let operator = self.bump();
                 while self.eat(TokenKind::Bang) {}
                 let arg = self.nested(Self::prefix);
-                self.unary(UnaryOp::Not, arg, operator)
+                self.error_node(operator.join(arg.span))
             }
             TokenKind::Param | TokenKind::Show => {
                 self.complain_reserved();
@@ -83,16 +90,47 @@ impl Parser<'_> {
                 TokenKind::Prime | TokenKind::Superscript | TokenKind::Dot
             );
         let diagnostic = if applies && stands_behind {
+            let signs = self.short(last.join(self.span()));
+            if matches!(signs.as_str(), "->" | "=>") {
+                self.complain_arrow(last);
+                return;
+            }
             let (first, second) = (self.quote(last), self.describe());
+            let hint = match signs.as_str() {
+                "<>" | "><" => "write `!=` for unequal",
+                "=<" => "write `<=`",
+                _ => "remove one of them, or write what stands between them",
+            };
             let message = format!("missing operand between {first} and {second}");
             Diagnostic::error("missing-operand", last.join(self.span()), message)
                 .with_label("two operators side by side")
-                .with_hint("remove one of them, or write what stands between them")
+                .with_hint(hint)
+        } else if before == TokenKind::EqualEqual && here == TokenKind::Equals {
+            let message = "`===` is no operator";
+            Diagnostic::error("missing-operand", last.join(self.span()), message)
+                .with_label("one sign too many")
+                .with_hint("write `==` to compare")
+        } else if before.is_infix() && here == TokenKind::Equals {
+            let place = last.join(self.span());
+            let message = format!("{} changes the value of a name", self.quote(place));
+            Diagnostic::error("missing-operand", place, message)
+                .with_label("a name keeps its value")
+                .with_hint("write the new value where it is needed, or give it a name with `where`")
         } else if applies {
             let message = format!("missing operand after {}", self.quote(last));
+            let operand = self.span_behind(1);
+            let is_star = before == TokenKind::Star
+                && operand.end == last.start
+                && self.behind_by(1) == TokenKind::Name;
+            let hint = if is_star {
+                let name = self.short(operand);
+                format!("write the operand; the conjugate of {name} is `conj({name})`")
+            } else {
+                "write the operand, or remove the operator".to_owned()
+            };
             Diagnostic::error("missing-operand", last, message)
                 .with_label("needs an operand on its right")
-                .with_hint("write the operand, or remove the operator")
+                .with_hint(hint)
         } else if stands_behind {
             let message = format!("missing operand before {}", self.describe());
             Diagnostic::error("missing-operand", self.span(), message)
@@ -113,6 +151,35 @@ impl Parser<'_> {
                 .with_hint(hint)
         };
         self.complain(diagnostic);
+    }
+
+    /// `f(x, y) -> x y`: the rest of the statement is left unread.
+    #[cold]
+    pub(crate) fn complain_arrow(&mut self, first: Span) {
+        let arrow = first.join(self.span());
+        let head = self.short(Span::new(self.first_span().start, first.start));
+        self.bump();
+        let value = self.short(self.rest());
+        let hint = if let Some((name, list)) = head.split_once('=') {
+            format!("write `{}{} = {value}`", name.trim(), list.trim())
+        } else if head.contains(':') {
+            "a function is `f(x) = …`; its types follow".to_owned()
+        } else if head.starts_with('(') {
+            format!("write `f{head} = {value}`")
+        } else {
+            format!("write `{head} = {value}`")
+        };
+        let message = format!("{} defines nothing", self.quote(arrow));
+        self.report(
+            Diagnostic::error(
+                "foreign-arrow",
+                self.first_span().join(self.rest()),
+                message,
+            )
+            .with_label("a function is defined by `=`")
+            .with_hint(hint),
+        );
+        self.abandon();
     }
 
     #[cold]

@@ -37,33 +37,67 @@ impl Parser<'_> {
         );
     }
 
-    /// Whether a name that nothing defines begins a loop of another language.
+    /// Whether a name that nothing defines begins a loop of another language, or a statement of one.
     pub(crate) fn is_foreign_loop(&self, name: &Name) -> bool {
-        is_loop(&name.text) && self.begins_operand()
+        let is_first =
+            self.position() == self.start() + 1 && self.statement == StatementKind::Formula;
+        self.begins_operand()
+            && (is_loop(&name.text) || is_first && foreign_statement(&name.text).is_some())
     }
 
     /// Leaves the rest of a statement unread that has a loop of another language in it.
     #[cold]
     pub(crate) fn foreign_loop(&mut self, name: &Name) -> Node {
-        self.complain_foreign_loop(name.span);
+        match foreign_statement(&name.text) {
+            Some(hint) => self.complain_foreign_word(name, hint),
+            None => self.complain_foreign_loop(name.span),
+        }
         let node = self.error_node(name.span);
         self.abandon();
         node
+    }
+
+    /// `import …`, `def …`: the word has been passed.
+    #[cold]
+    fn complain_foreign_word(&mut self, word: &Name, hint: &'static str) {
+        let message = format!("`{}` is no word of the language", shorten(&word.text));
+        self.report(
+            Diagnostic::error("foreign-statement", word.span, message)
+                .with_label("a program has definitions, formulas and `show`")
+                .with_hint(hint),
+        );
     }
 
     /// `for k in 1..n`, `while c`; the word has been passed.
     #[cold]
     fn complain_foreign_loop(&mut self, word: Span) {
         let hint = if word.text(self.text) == "while" {
-            "write `iterate(n, z = start, step until condition)`; it ends where the condition holds"
+            "to repeat write `iterate(n, z = start, step until condition)`; it ends where the condition holds"
                 .to_owned()
         } else {
+            let compares = (0..8).any(|n| {
+                use TokenKind::{Greater, GreaterEqual, Less, LessEqual};
+                matches!(self.ahead(n), Greater | GreaterEqual | Less | LessEqual)
+            });
+            if compares && !self.at(TokenKind::LParen) && !self.running_follows() {
+                let condition = self.short(self.rest());
+                let message = "`for` is no word of the language";
+                return self.complain(
+                    Diagnostic::error("foreign-loop", word, message)
+                        .with_label("a condition stands before its value")
+                        .with_hint(format!(
+                            "write it as a choice: `if {condition} then … else nan`"
+                        )),
+                );
+            }
             let range = if self.running_follows() {
                 self.range_ahead()
             } else {
                 "k in 1..n".to_owned()
             };
-            format!("write `sum({range}, term)`, `product(…)`, or `iterate(n, z = start, step)`")
+            format!(
+                "to repeat write `sum({range}, term)`, `product(…)`, or `iterate(n, z = start, step)`"
+            )
         };
         let message = format!("{} is no word of the language", self.quote(word));
         self.complain(
@@ -132,7 +166,9 @@ impl Parser<'_> {
         let diagnostic =
             Diagnostic::error("missing-default", span, "missing default of a parameter")
                 .with_label("expected `=` and a value")
-                .with_hint(format!("write `param {shown} = value in lo..hi`"));
+                .with_hint(format!(
+                    "give it a value: `param {shown} = value in lo..hi`"
+                ));
         self.complain(diagnostic);
         if matches!(self.kind(), TokenKind::In | TokenKind::End) {
             return self.missing_node();
@@ -152,6 +188,11 @@ impl Parser<'_> {
         } else {
             lower.span
         };
+        let span = if self.at(TokenKind::Colon) {
+            span.join(self.span_ahead(1))
+        } else {
+            span
+        };
         let in_form = self.open_parens > 0 && self.statement != StatementKind::Param;
         let hint = match &self.exprs[lower.id] {
             Expr::Vector(ends) if ends.len() == 2 => {
@@ -159,18 +200,21 @@ impl Parser<'_> {
                     .iter()
                     .map(|&end| self.short(self.exprs.span(end)))
                     .collect();
-                format!("write `in {}`", ends.join(".."))
+                format!("write `{}`", ends.join(".."))
+            }
+            Expr::Number(value) if *value > 0.0 && !in_form && self.at(TokenKind::End) => {
+                format!("write `0..{}`", self.short(lower.span))
             }
             _ if self.at(TokenKind::Colon)
                 && matches!(self.ahead(1), TokenKind::Number | TokenKind::Name) =>
             {
                 let upper = self.short(self.span_ahead(1));
-                format!("write `in {}..{upper}`", self.short(lower.span))
+                format!("write `{}..{upper}`", self.short(lower.span))
             }
             Expr::Number(_) | Expr::Name(_) if in_form => {
-                format!("write `in 1..{}`", self.short(lower.span))
+                format!("write `1..{}`", self.short(lower.span))
             }
-            _ => "write `in lo..hi`".to_owned(),
+            _ => "a range is `in lo..hi`".to_owned(),
         };
         self.complain(
             Diagnostic::error("bad-range", span, "a range has two ends")
@@ -196,7 +240,7 @@ impl Parser<'_> {
         self.complain(
             Diagnostic::error("missing-name", span, message)
                 .with_label("expected the name of a scene")
-                .with_hint("write `show surface(f)`"),
+                .with_hint("a picture is `show surface(f)`"),
         );
         let end = self.last_span().end;
         Name {
@@ -210,6 +254,10 @@ impl Parser<'_> {
         let opens = self.at(TokenKind::LParen);
         if opens && self.ahead(1) != TokenKind::RParen {
             return true;
+        }
+        if self.at(TokenKind::Name) && self.ahead(1) == TokenKind::End {
+            self.complain_bare_subject(scene);
+            return false;
         }
         let shown = if scene.text.is_empty() {
             "surface".to_owned()
@@ -225,7 +273,7 @@ impl Parser<'_> {
         self.complain(
             Diagnostic::error("missing-arguments", span, message)
                 .with_label("expected a function or formula in brackets")
-                .with_hint(format!("write `show {shown}(f)`")),
+                .with_hint(format!("say what is shown: `show {shown}(f)`")),
         );
         if opens {
             self.bump();
@@ -235,6 +283,52 @@ impl Parser<'_> {
             self.bump();
         }
         false
+    }
+
+    /// `show f`: the function, but no scene. Whether that is it.
+    pub(crate) fn lacks_scene(&mut self, name: &Name) -> bool {
+        let is_alone = self.at(TokenKind::End) && self.scope.defines_function(&name.text);
+        if is_alone {
+            let shown = shorten(&name.text);
+            let message = format!("`{shown}` is a function, not a scene");
+            self.report(
+                Diagnostic::error("unknown-scene", name.span, message)
+                    .with_label("which scene?")
+                    .with_hint(format!(
+                        "write `levels({shown})`; other scenes are `domain` and `surface`"
+                    )),
+            );
+        }
+        is_alone
+    }
+
+    /// `show levels(f, height = 2)`: a setting among what is shown. Whether that is it; the rest is left unread.
+    pub(crate) fn is_setting_inside(&mut self) -> bool {
+        let found = self.at(TokenKind::Name) && self.ahead(1) == TokenKind::Equals;
+        if found {
+            let name = self.short(self.span());
+            let message = format!("the setting `{name}` stands among what is shown");
+            self.complain(
+                Diagnostic::error("missing-braces", self.span(), message)
+                    .with_label("settings stand in braces")
+                    .with_hint(format!("put it behind the brackets: `{{ {name} = … }}`")),
+            );
+            self.abandon();
+        }
+        found
+    }
+
+    /// `show levels f`
+    #[cold]
+    fn complain_bare_subject(&mut self, scene: &Name) {
+        let subject = self.bump();
+        let shown = format!("{}({})", shorten(&scene.text), self.short(subject));
+        let message = "what is shown has no brackets";
+        self.report(
+            Diagnostic::error("missing-arguments", scene.span.join(subject), message)
+                .with_label("brackets are missing")
+                .with_hint(format!("write `{shown}`")),
+        );
     }
 
     /// Whether `=` behind `lhs` makes an equation of the whole statement.
@@ -265,6 +359,28 @@ impl Parser<'_> {
         }
         may
     }
+}
+
+/// What to do in place of a statement of another language that begins with this word.
+fn foreign_statement(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "import" | "from" | "using" | "include" | "require" => {
+            "remove the line: all functions of the language are there"
+        }
+        "def" | "function" | "fn" | "func" | "void" | "lambda" | "class" | "struct" => {
+            "define a function by one expression: `f(x, y) = value where a = …`"
+        }
+        "return" | "print" | "echo" | "plot" | "draw" | "Plot" | "Draw" | "Plot3D"
+        | "ContourPlot" | "DensityPlot" => {
+            "a program shows its formula: write that alone, or `show levels(formula)`"
+        }
+        "uniform" | "varying" | "attribute" | "slider" => {
+            "a number that can be changed is `param name = value in lo..hi`"
+        }
+        "out" | "precision" | "layout" => "remove the line: a scene draws the formula",
+        "let" | "var" | "const" | "local" => "a definition is `name = value`",
+        _ => return None,
+    })
 }
 
 /// Words with which loops begin in other languages.

@@ -41,8 +41,14 @@ impl Parser<'_> {
     pub(crate) fn conditional(&mut self) -> Node {
         let opening = self.bump();
         let outer = std::mem::replace(&mut self.in_condition, true);
-        let cond = self.disjunction();
+        let mut cond = self.disjunction();
+        if self.at(TokenKind::In) {
+            cond = self.range_as_condition(cond);
+        }
         self.in_condition = outer;
+        if self.is_foreign_conditional(opening, cond) {
+            return self.error_node(opening.join(self.last_span()));
+        }
         self.expect_then(opening);
         let then = self.disjunction();
         let otherwise = if self.expect_else(opening) {
@@ -69,6 +75,9 @@ impl Parser<'_> {
             self.close(&opened);
             let whole = opened.span.join(self.last_span());
             return self.error_node(whole);
+        }
+        if self.is_foreign_list(&opened) {
+            return self.error_node(opened.span.join(self.last_span()));
         }
         loop {
             if otherwise.is_some() {

@@ -50,6 +50,9 @@ impl Parser<'_> {
                 TokenKind::Equals => self.complain_equals(first),
                 _ => break,
             };
+            if self.is_abandoned() {
+                return self.error_node(first.span);
+            }
             self.bump();
             rest.push((op, self.sum().id));
         }

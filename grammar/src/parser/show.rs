@@ -9,11 +9,23 @@ impl Parser<'_> {
     /// `show = "show" NAME "(" subject { "," subject } ")" [ "{" [ setting { "," setting } [ "," ] ] "}" ]`
     pub(crate) fn show(&mut self) -> Show {
         self.bump();
-        let scene = self.expect_scene();
+        let mut scene = self.expect_scene();
         let mut args = Vec::new();
+        if self.lacks_scene(&scene) {
+            scene.text.clear();
+            return Show {
+                scene,
+                args,
+                settings: Vec::new(),
+                span: Span::default(),
+            };
+        }
         if self.expect_subjects(&scene) {
             let opened = self.open();
             loop {
+                if self.is_setting_inside() {
+                    break;
+                }
                 args.push(self.subject());
                 if !self.separator(&opened) {
                     break;

@@ -72,8 +72,17 @@ impl Parser<'_> {
     /// `formal = NAME [ ":" NAME ]`
     fn formal(&mut self) -> Option<Formal> {
         let Some(name) = self.expect_parameter() else {
+            // the name in `f(2x)` is one all the same
+            let name = (self.at(TokenKind::Number) || self.at(TokenKind::Minus))
+                && self.ahead(1) == TokenKind::Name;
+            if !name {
+                self.skip_to_separator();
+                return None;
+            }
+            self.bump();
+            let name = self.bump_name();
             self.skip_to_separator();
-            return None;
+            return Some(Formal { name, ty: None });
         };
         let ty = if self.eat(TokenKind::Colon) {
             self.expect_type()
@@ -87,9 +96,13 @@ impl Parser<'_> {
     fn constant(&mut self) -> Constant {
         let name = self.name_to_define();
         self.expect_equals();
+        let mut value = self.expr();
+        if self.is_abandoned() {
+            value = self.error_node(value.span);
+        }
         Constant {
             name,
-            value: self.expr().id,
+            value: value.id,
             span: Span::default(),
         }
     }
@@ -125,7 +138,11 @@ impl Parser<'_> {
     /// `formula = expr`
     fn formula(&mut self) -> Formula {
         self.bind_free_variables();
-        let body = self.expr();
+        let mut body = self.expr();
+        if self.is_abandoned() {
+            // what is wrong has been said; its names need not mean anything
+            body = self.error_node(body.span);
+        }
         self.unbind_free_variables();
         Formula {
             body: body.id,

@@ -67,7 +67,7 @@ impl Parser<'_> {
                         "the arguments of `ArcTan` are x and y",
                     )
                     .with_label("`atan2` takes y first")
-                    .with_hint("write `atan2(y, x)`"),
+                    .with_hint("y comes first: `atan2(y, x)`"),
                 );
             }
             self.rename(&mut callee, "atan2");

@@ -142,7 +142,7 @@ impl Translator<'_> {
                 self.span(),
                 "the `sinc` of NumPy is sin(πx)/(πx)",
                 "sin(x)/x here",
-                "write `sinc(π x)`",
+                "with its π here: `sinc(π x)`",
             );
         }
         let word = self.word_ahead(0).to_owned();
@@ -190,14 +190,33 @@ impl Translator<'_> {
             && (self.bracketed.contains(word)
                 || word.starts_with(|c: char| c.is_ascii_uppercase())
                     && function_of(word).is_some());
-        if is_call {
+        let is_head = is_behind_name
+            && self.ahead(1) != TokenKind::Number
+            && matches!(
+                word,
+                "If" | "Which"
+                    | "Piecewise"
+                    | "Sum"
+                    | "Product"
+                    | "Integrate"
+                    | "D"
+                    | "Limit"
+                    | "Module"
+                    | "With"
+                    | "Plot"
+                    | "Plot3D"
+                    | "ContourPlot"
+                    | "DensityPlot"
+            );
+        if is_call || is_head {
+            // a head without a meaning here is reported as an unknown function
             let span = self.bump();
             self.emit(TokenKind::LParen, span);
         } else if is_behind_name {
             let name = shorten(word);
             let is_index = self.ahead(1) == TokenKind::Number;
             let hint = if is_index {
-                format!("write `{name}.x`, `{name}.y`, `{name}.z` or `{name}.w` for a component")
+                format!("a component is `{name}.x`, `{name}.y`, `{name}.z` or `{name}.w`")
             } else {
                 format!("write `{name}(…)` for a call")
             };

@@ -527,7 +527,11 @@ impl Translator<'_> {
     /// `z^*`
     fn complain_star(&mut self, inner: usize, is_group: bool) {
         let name = shorten(self.last_span().text(self.text));
-        let mut span = self.span();
+        let (name, mut span) = if name.chars().all(char::is_alphanumeric) {
+            (name, self.last_span().join(self.span()))
+        } else {
+            ("…".to_owned(), self.span())
+        };
         for _ in 0..=inner + usize::from(is_group) {
             span = span.join(self.bump());
         }

@@ -80,11 +80,15 @@ impl<'a> Builder<'a> {
         let Some(ty) = leaves.ty(&self.graph) else {
             return Value::Error;
         };
-        let message = format!("{} is {ty}: `diff` is by one number", quoted(&name.text));
+        let message = format!(
+            "{} is {}: `diff` is by one number",
+            quoted(&name.text),
+            ty.in_words()
+        );
         let shown = crate::check::shortened(&name.text);
         self.report(
             Diagnostic::error("type-mismatch", name.span, message)
-                .with_label(format!("this is {ty}"))
+                .with_label(format!("this is {}", ty.in_words()))
                 .with_hint(format!(
                     "grad(…, {shown}) has the derivatives by every component: grad(…, {shown}).x"
                 )),
@@ -263,10 +267,10 @@ impl<'a> Builder<'a> {
                 let bound = self.scope.get(&name.text).cloned();
                 let found = match bound {
                     Some(Value::Error) => return None,
-                    Some(value) => value.ty(&self.graph).map(|t| t.to_string()),
+                    Some(value) => value.ty(&self.graph).map(Type::in_words),
                     None => return None,
                 };
-                let found = found.unwrap_or_else(|| "no number".to_owned());
+                let found = found.unwrap_or("no number");
                 let message = format!("{} is {found}, which is no variable", quoted(&name.text));
                 self.report(
                     Diagnostic::error("not-a-variable", name.span, message)

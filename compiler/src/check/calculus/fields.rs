@@ -107,9 +107,13 @@ impl Builder<'_> {
         let problem = Diagnostic::error(
             "type-mismatch",
             subject.span,
-            format!("`{}` is of {wanted}, found {found}", operator.name),
+            format!(
+                "`{}` is of {wanted}, and this is {}",
+                operator.name,
+                found.in_words()
+            ),
         )
-        .with_label(format!("of {found}"));
+        .with_label(format!("of {}", found.in_words()));
         self.report(match (operator.kind, found) {
             (Kind::Grad, Type::Vector(_)) => {
                 problem.with_hint("of a vector, take div, curl, or jacobian; or grad of a component such as v.x")

@@ -3,7 +3,6 @@
 use pullback_grammar::ast::{ExprId, Range};
 use pullback_grammar::{Diagnostic, Span};
 
-use crate::check::builtins::advice;
 use crate::check::{Builder, Value};
 use crate::ir::Ty;
 use crate::types::Type;
@@ -23,10 +22,14 @@ impl<'a> Builder<'a> {
                 Some(Type::Real) => {}
                 Some(found) => {
                     fits = false;
-                    let message = format!("the {which} end of an integral is real, found {found}");
+                    let message = format!(
+                        "the {which} end of an integral is a real number, and this is {}",
+                        found.in_words()
+                    );
                     let problem = Diagnostic::error("type-mismatch", self.span(end), message)
-                        .with_label(format!("this is {found}"));
-                    self.report(problem.with_hint(advice(found, false)));
+                        .with_label(format!("this is {}", found.in_words()));
+                    let hint = self.advice_at(found, false, self.span(end));
+                    self.report(problem.with_hint(hint));
                 }
                 None => fits = false,
             }
@@ -43,7 +46,11 @@ impl<'a> Builder<'a> {
                     self.span(body),
                     "a condition has no integral",
                 );
-                self.report(problem.with_hint("write if … then 1 else 0"))
+                let shown =
+                    crate::check::shortened(&pullback_grammar::print_expr(&self.file.exprs, body));
+                self.report(
+                    problem.with_hint(format!("integrate a number: `if {shown} then 1 else 0`")),
+                )
             }
             Some(_) if fits => {
                 let message = "integrals are not available in this version";

@@ -56,7 +56,9 @@ impl Builder<'_> {
                     subject.span,
                     "a condition has no derivative",
                 );
-                self.report(problem.with_hint("write if … then 1 else 0"));
+                self.report(problem.with_hint(
+                    "differentiate a number: a condition becomes one by `if … then 1 else 0`",
+                ));
                 None
             }
             _ if self.graph.ty(leaf) == Ty::Complex => self.complex_partial(value, leaf, subject),

@@ -15,7 +15,7 @@ pub const MAX_ORDER: u32 = 4;
 /// What is wrong with the primes of a call, as its text shows it: `arities` are the numbers of arguments that the
 /// function takes, `args` the arguments as text.
 pub fn primes_misused(
-    callee: &Name,
+    (callee, span): (&Name, Span),
     primes: u32,
     arities: &[usize],
     args: &[String],
@@ -23,7 +23,7 @@ pub fn primes_misused(
 ) -> Option<Diagnostic> {
     if arities.contains(&1) {
         // a wrong number of arguments is reported as such
-        return too_high(callee.span, primes);
+        return too_high(span, primes);
     }
     let name = &callee.text;
     let count = arities.first().copied().unwrap_or(args.len());
@@ -37,11 +37,11 @@ pub fn primes_misused(
         String::new()
     };
     let call = crate::check::shortened(&format!("{name}({})", args.join(", ")));
-    let problem = Diagnostic::error("prime-needs-one-variable", callee.span, message);
+    let problem = Diagnostic::error("prime-needs-one-variable", span, message);
     Some(
         problem
             .with_label("not of one variable")
-            .with_hint(format!("write diff({call}, {variable}{order})")),
+            .with_hint(format!("write `diff({call}, {variable}{order})`")),
     )
 }
 
@@ -156,10 +156,12 @@ impl<'a> Builder<'a> {
             }
             (_, Type::Real | Type::Complex, _) => Some(at.clone()),
             _ => {
-                let message =
-                    format!("a prime is the derivative by one number, and this is {found}");
+                let message = format!(
+                    "a prime is the derivative by one number, and this is {}",
+                    found.in_words()
+                );
                 let problem = Diagnostic::error("prime-needs-one-variable", span, message)
-                    .with_label(format!("this is {found}"));
+                    .with_label(format!("this is {}", found.in_words()));
                 let name = quoted(&callee.text);
                 let name = name.trim_matches('`');
                 self.report(match found {

@@ -8,7 +8,8 @@ use super::super::calculus::{
 };
 use super::super::suggest::{quoted, shortened};
 use super::super::{is_builtin_function, is_builtin_value};
-use super::{FREE_NAMES, Walk, listed, wrong_arity};
+use super::arity::wrong_arity;
+use super::{FREE_NAMES, Walk, listed};
 
 impl<'a> Walk<'a, '_> {
     /// The operator that a call means, where the program has no function of that name.
@@ -18,7 +19,13 @@ impl<'a> Walk<'a, '_> {
     }
 
     /// Reports primes that do not say what is meant; whether there were any such.
-    pub(super) fn primes(&mut self, callee: &Name, primes: u32, args: &[ExprId]) -> bool {
+    pub(super) fn primes(
+        &mut self,
+        callee: &Name,
+        span: Span,
+        primes: u32,
+        args: &[ExprId],
+    ) -> bool {
         if primes == 0 {
             return false;
         }
@@ -32,7 +39,7 @@ impl<'a> Walk<'a, '_> {
         let mut names = args.iter().filter_map(|&arg| self.candidate(arg));
         let variable = names.next().unwrap_or("x").to_owned();
         let arities = arities_of(own, text);
-        let problem = primes_misused(callee, primes, &arities, &shown, &variable);
+        let problem = primes_misused((callee, span), primes, &arities, &shown, &variable);
         let found = problem.is_some();
         self.diagnostics.extend(problem);
         found
@@ -49,9 +56,16 @@ impl<'a> Walk<'a, '_> {
         if primes > 0 {
             let message = format!("`{}` is no function of a number", operator.name);
             self.diagnostics.push(
-                Diagnostic::error("prime-needs-one-variable", callee.span, message)
+                Diagnostic::error("prime-needs-one-variable", span, message)
                     .with_label("has no derivative")
-                    .with_hint(format!("write diff({}, x)", operator.usage)),
+                    .with_hint(match args.first() {
+                        Some(&first) => format!(
+                            "write `diff({}({}), x)`",
+                            operator.name,
+                            shortened(&print_expr(self.exprs, first))
+                        ),
+                        None => "write `diff(expression, x)`".to_owned(),
+                    }),
             );
         }
         let Some((&first, rest)) = args.split_first() else {
@@ -111,7 +125,14 @@ impl<'a> Walk<'a, '_> {
             }));
         } else if !arities.contains(&rest.len()) && !arities.is_empty() {
             let wanted: Vec<String> = arities.iter().map(usize::to_string).collect();
-            let usage = format!("{}({})(…)", operator.name, shortened(text));
+            let point = own.map_or_else(
+                || "…".to_owned(),
+                |f| {
+                    let names: Vec<&str> = f.params.iter().map(|p| p.name.text.as_str()).collect();
+                    names.join(", ")
+                },
+            );
+            let usage = format!("{}({})({point})", operator.name, shortened(text));
             let problem = wrong_arity(name, rest.len(), &wanted.join(" or "), &quoted(&usage));
             self.diagnostics.push(problem);
         }
@@ -163,9 +184,9 @@ impl<'a> Walk<'a, '_> {
                 }
                 (_, Some(times)) => total += times - 1,
                 (Expr::Number(value), None) if is_diff && *value > f64::from(MAX_ORDER) => {
-                    total = MAX_ORDER + 1;
+                    total += order_of(*value);
                 }
-                _ => return self.not_a_variable(operator, shown, arg),
+                _ => return self.not_a_variable(operator, shown, first, arg),
             }
         }
         if total == 0 {
@@ -207,7 +228,7 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
-    fn not_a_variable(&mut self, operator: &Operator, shown: &str, arg: ExprId) {
+    fn not_a_variable(&mut self, operator: &Operator, shown: &str, first: ExprId, arg: ExprId) {
         let span = self.exprs.span(arg);
         let problem = Diagnostic::error(
             "not-a-variable",
@@ -215,7 +236,8 @@ impl<'a> Walk<'a, '_> {
             format!("`{}` is by names of variables", operator.name),
         )
         .with_label("not a name");
-        let candidate = self.candidate(arg).unwrap_or("x");
+        let in_shown = self.candidate(first);
+        let candidate = self.candidate(arg).or(in_shown).unwrap_or("x");
         let operator_name = operator.name;
         self.diagnostics.push(match &self.exprs[arg] {
             Expr::Member { base, .. } => {
@@ -224,14 +246,22 @@ impl<'a> Walk<'a, '_> {
                     "name the components: with `where (…)`, or take a component of grad({shown}, {base})"
                 ))
             }
+            Expr::Number(value) if self.is_order(*value) => problem.with_hint(format!(
+                "the order stands behind its variable: `{operator_name}({shown}, {candidate}, {value})`"
+            )),
             Expr::Number(_) => problem.with_hint(format!(
-                "write `{operator_name}({shown}, {candidate})`; the order, 1 to {MAX_ORDER}, stands behind its variable"
+                "an order is 1 to {MAX_ORDER}, and stands behind its variable: `{operator_name}({shown}, {candidate}, 2)`"
             )),
             _ => problem.with_hint(format!(
                 "for the derivative at a point, define the function: g({candidate}) = {shown}, and write g'(…)"
             )),
         });
         self.expr(arg);
+    }
+
+    /// Whether a number can be the order of a derivative.
+    fn is_order(&self, value: f64) -> bool {
+        (1..=MAX_ORDER).any(|order| f64::from(order) == value)
     }
 
     /// The first name in an expression that varies here.
@@ -255,5 +285,15 @@ impl<'a> Walk<'a, '_> {
             stack[at..].reverse();
         }
         None
+    }
+}
+
+/// A number as an order that is too high, as far as such can be told.
+fn order_of(value: f64) -> u32 {
+    if value < f64::from(u32::MAX / 2) {
+        // in range, and whole numbers are what is written
+        value.ceil() as u32 - 1
+    } else {
+        u32::MAX / 2
     }
 }
