@@ -33,6 +33,71 @@ fn main() {
     gallery.sort();
     gallery_table(&gallery);
     growth_table();
+    diagnostics_table();
+}
+
+/// Texts of 1 MiB: how long until the last diagnostic of the whole compiler.
+fn diagnostics_table() {
+    println!("\n1 MiB of text to the last diagnostic, best of 7 runs\n");
+    println!("| text | time, ms | diagnostics |");
+    println!("| --- | ---: | ---: |");
+    for (name, text) in large_texts() {
+        let mut best = f64::INFINITY;
+        let mut found = 0;
+        for _ in 0..7 {
+            let start = Instant::now();
+            found = std::hint::black_box(compile(&text)).diagnostics.len();
+            best = best.min(start.elapsed().as_secs_f64() * 1e3);
+        }
+        println!("| {name} | {best:.1} | {found} |");
+    }
+}
+
+fn large_texts() -> Vec<(&'static str, String)> {
+    const SIZE: usize = 1 << 20;
+    let lines = |line: &dyn Fn(usize) -> String| {
+        let mut text = "f(x, y) = x + y\n".to_owned();
+        let mut k = 0;
+        while text.len() < SIZE {
+            text.push_str(&line(k));
+            text.push('\n');
+            k += 1;
+        }
+        text
+    };
+    let mut chain = "f(x, y) = x".to_owned();
+    while chain.len() < SIZE {
+        chain.push_str(" + sin(3 x y)^2/(1 + |x - y|)");
+    }
+    vec![
+        (
+            "functions that nothing uses",
+            lines(&|k| format!("g{k}(x, y) = cos(k{k} x) + sin(y)^2/(1 + |x y|) where k{k} = {k}")),
+        ),
+        (
+            "an unknown name in each line",
+            lines(&|k| format!("g{k}(x, y) = cos(a{k} x) + sin(y)^2")),
+        ),
+        (
+            "a wrong type in each line",
+            lines(&|k| format!("g{k}(x, y) = (x, y) + (x, y, {k}) < 2")),
+        ),
+        (
+            "a loop and a derivative in each line",
+            lines(&|k| {
+                format!(
+                    "g{k}(x, y) = sum(j in 1..{}, sin(j x)/j) + diff(x^{} y, x)",
+                    k % 50,
+                    k % 9
+                )
+            }),
+        ),
+        (
+            "a syntax error in each line",
+            lines(&|k| format!("g{k}(x, y) = cos({k} x + * sin(y)")),
+        ),
+        ("one expression", chain),
+    ]
 }
 
 fn gallery_table(gallery: &[(String, String)]) {

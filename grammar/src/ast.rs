@@ -65,6 +65,17 @@ impl Exprs {
             .map(|(index, (expr, span))| (ExprId(index), expr, *span))
     }
 
+    /// The outermost expression at a place; found where expressions stand in the order of their ends, as the parser adds
+    /// those of a text that is not pasted from elsewhere.
+    #[must_use]
+    pub fn at(&self, place: Span) -> Option<ExprId> {
+        let first = self.nodes.partition_point(|(_, span)| span.end < place.end);
+        let behind = self.nodes.get(first..)?.iter().enumerate();
+        let ending = behind.take_while(|(_, (_, span))| span.end == place.end);
+        let (offset, _) = ending.filter(|(_, (_, span))| *span == place).last()?;
+        u32::try_from(first + offset).ok().map(ExprId)
+    }
+
     /// The items of the one step of several states, `(z², 2 z d + w) where w = …`: a list with local names.
     #[must_use]
     pub fn joint_step(&self, steps: &[ExprId], states: usize) -> Option<&[ExprId]> {

@@ -5,6 +5,8 @@ mod binding;
 mod calculus;
 mod unknown;
 
+use std::cell::OnceCell;
+
 use pullback_grammar::ast::{BinaryOp, Expr, ExprId, Exprs, File, Function, Item, Name, Setting};
 use pullback_grammar::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -85,6 +87,8 @@ struct Walk<'a, 'd> {
     excused: Vec<&'a str>,
     /// Which definitions each definition uses, and where.
     uses: FxHashMap<&'a str, Vec<(&'a str, Span)>>,
+    /// Every name that is bound somewhere, looked up once there is an unknown one.
+    bound: OnceCell<FxHashMap<String, Span>>,
 }
 
 impl<'a, 'd> Walk<'a, 'd> {
@@ -106,6 +110,7 @@ impl<'a, 'd> Walk<'a, 'd> {
             body: None,
             excused: Vec::new(),
             uses: FxHashMap::default(),
+            bound: OnceCell::new(),
         }
     }
 

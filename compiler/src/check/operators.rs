@@ -77,8 +77,7 @@ impl<'a> Builder<'a> {
             return None;
         }
         let exprs = &self.file.exprs;
-        let outermost = exprs.iter().filter(|(_, _, at)| *at == span).last()?;
-        Some(shortened(&print_expr(exprs, outermost.0)))
+        Some(shortened(&print_expr(exprs, exprs.at(span)?)))
     }
 
     /// How what stands at a place becomes what is wanted, in its own text: a vector, or a real number.
@@ -95,7 +94,7 @@ impl<'a> Builder<'a> {
             return None;
         }
         let exprs = &self.file.exprs;
-        let (_, whole, _) = exprs.iter().filter(|(_, _, at)| *at == span).last()?;
+        let whole = &exprs[exprs.at(span)?];
         let mut operands = Vec::new();
         whole.for_each_child(|child| operands.push(child));
         let which = types.iter().position(|ty| *ty == wanted)?;

@@ -1,5 +1,10 @@
 //! The nearest name to a misspelt one.
 
+use smallvec::SmallVec;
+
+/// Letters of a name that are compared.
+const MAX_LETTERS: usize = 64;
+
 /// Most names that are compared, so that programs with very many names are answered soon.
 const MAX_CANDIDATES: usize = 1000;
 
@@ -23,7 +28,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             if other.len().abs_diff(letters.len()) > limit {
                 return None;
             }
-            let distance = distance(&letters, &other);
+            let distance = distance(&letters, &other, limit);
             let longest = other.len().max(letters.len());
             let pairs = letters.iter().zip(&other);
             let alike = pairs.take_while(|(a, b)| a == b).count();
@@ -36,8 +41,9 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 }
 
 /// The beginning of a name without the difference of small and capital letters.
-fn folded(name: &str) -> Vec<char> {
-    name.chars().take(64).flat_map(char::to_lowercase).collect()
+fn folded(name: &str) -> SmallVec<[char; MAX_LETTERS]> {
+    let letters = name.chars().flat_map(char::to_lowercase);
+    letters.take(MAX_LETTERS).collect()
 }
 
 /// A name in backquotes, cut where it is long.
@@ -56,11 +62,14 @@ pub fn shortened(name: &str) -> String {
     }
 }
 
-fn distance(a: &[char], b: &[char]) -> usize {
-    let mut before: Vec<usize> = vec![0; b.len() + 1];
-    let mut above: Vec<usize> = (0..=b.len()).collect();
+/// The distance of two names of at most [`MAX_LETTERS`] letters, or more than `limit` where it is above that.
+fn distance(a: &[char], b: &[char], limit: usize) -> usize {
+    let mut before = [0; MAX_LETTERS + 1];
+    let mut above: [usize; MAX_LETTERS + 1] = std::array::from_fn(|j| j);
+    let mut row = [0; MAX_LETTERS + 1];
     for i in 1..=a.len() {
-        let mut row = vec![i; b.len() + 1];
+        row[0] = i;
+        let mut least = i;
         for j in 1..=b.len() {
             let change = usize::from(a[i - 1] != b[j - 1]);
             row[j] = (above[j] + 1)
@@ -69,8 +78,13 @@ fn distance(a: &[char], b: &[char]) -> usize {
             if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
                 row[j] = row[j].min(before[j - 2] + 1);
             }
+            least = least.min(row[j]);
         }
-        before = std::mem::replace(&mut above, row);
+        // a swap of neighbours looks two rows up
+        if least > limit + 1 {
+            return least;
+        }
+        (before, above) = (above, row);
     }
     above[b.len()]
 }

@@ -4,6 +4,8 @@ use pullback_grammar::ast::{BinaryOp, Expr, ExprId, Name};
 use pullback_grammar::diagnostic::MAX_DIAGNOSTICS;
 use pullback_grammar::{Diagnostic, Span, print_expr};
 
+use rustc_hash::FxHashMap;
+
 use super::{FREE_NAMES, Walk};
 use crate::check::suggest::{quoted, shortened};
 use crate::check::{builtins, calculus, familiar, is_builtin_function, library, nearest};
@@ -275,25 +277,38 @@ impl<'a> Walk<'a, '_> {
         if FREE_NAMES.contains(&text) {
             return None;
         }
-        let functions = self.symbols.functions.values();
-        let mut formals = functions.flat_map(|function| &function.params);
-        let is_it = |name: &&Name| name.text == text;
-        let formal = formals.find(|formal| formal.name.text == text);
-        let in_expr = |expr: &'a Expr| match expr {
-            Expr::Where { locals, .. } => locals
-                .iter()
-                .filter(|local| local.field.is_none())
-                .map(|local| &local.name)
-                .find(is_it),
-            Expr::Series { ranges, .. } => ranges.iter().map(|range| &range.name).find(is_it),
-            Expr::Integral { range, .. } => Some(&range.name).filter(is_it),
-            Expr::Iterate { states, .. } => states.iter().map(|state| &state.0).find(is_it),
-            _ => None,
+        self.bound
+            .get_or_init(|| self.bound_names())
+            .get(text)
+            .copied()
+    }
+
+    /// The first place of every name that is bound somewhere in the program: parameters first.
+    fn bound_names(&self) -> FxHashMap<String, Span> {
+        let mut functions: Vec<_> = self.symbols.functions.values().collect();
+        functions.sort_unstable_by_key(|function| function.span.start);
+        let mut out: FxHashMap<String, Span> = FxHashMap::default();
+        let mut bind = |name: &Name| {
+            if !out.contains_key(&name.text) {
+                out.insert(name.text.clone(), name.span);
+            }
         };
-        formal
-            .map(|formal| &formal.name)
-            .or_else(|| self.exprs.iter().find_map(|(_, expr, _)| in_expr(expr)))
-            .map(|name| name.span)
+        for function in functions {
+            function.params.iter().for_each(|formal| bind(&formal.name));
+        }
+        for (_, expr, _) in self.exprs.iter() {
+            match expr {
+                Expr::Where { locals, .. } => locals
+                    .iter()
+                    .filter(|local| local.field.is_none())
+                    .for_each(|local| bind(&local.name)),
+                Expr::Series { ranges, .. } => ranges.iter().for_each(|range| bind(&range.name)),
+                Expr::Integral { range, .. } => bind(&range.name),
+                Expr::Iterate { states, .. } => states.iter().for_each(|state| bind(&state.0)),
+                _ => {}
+            }
+        }
+        out
     }
 
     pub(super) fn unknown_function(&self, callee: &Name, args: &[ExprId]) -> Diagnostic {
