@@ -66,9 +66,25 @@ pub fn print_item(exprs: &Exprs, item: &Item) -> String {
         }
         Item::Param(item) => param(&mut out, exprs, item),
         Item::Show(item) => show(&mut out, exprs, item),
-        Item::Formula(item) => write(&mut out, exprs, item.body, Level::Where),
+        Item::Formula(item) => {
+            write(&mut out, exprs, item.body, Level::Where);
+            if looks_foreign(&out) {
+                out = format!("({out})");
+            }
+        }
     }
     out
+}
+
+/// Whether a formula begins like a declaration of another language: with a word, and a name behind it.
+fn looks_foreign(text: &str) -> bool {
+    let is_letter = |c: char| c.is_alphanumeric() || c == '_';
+    let (word, rest) = text.split_at(text.find(|c| !is_letter(c)).unwrap_or(text.len()));
+    let mut behind = rest.chars();
+    word.chars().nth(1).is_some()
+        && behind.next() == Some(' ')
+        && behind.next().is_some_and(|c| c.is_alphabetic() || c == '_')
+        && !["if", "pi", "tau", "phi", "not"].contains(&word)
 }
 
 /// The canonical text of one expression.

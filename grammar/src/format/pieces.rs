@@ -46,6 +46,19 @@ impl Piece<'_> {
         self.must_break.get() || !self.notes.is_empty()
     }
 
+    /// Takes back the line breaks of the author in a run: bars are written on one line.
+    fn join(run: &[Piece<'_>]) {
+        for piece in run {
+            if let Some(group) = &piece.group {
+                Self::join(&group.run);
+                let has_notes = group.run.iter().any(Piece::breaks) || !group.notes.is_empty();
+                piece.must_break.set(has_notes);
+            } else {
+                piece.must_break.set(false);
+            }
+        }
+    }
+
     /// Passes on to the brackets in a run what must break inside of them.
     pub(super) fn settle(run: &[Piece<'_>]) {
         for piece in run {
@@ -245,6 +258,9 @@ fn close<'a>(
         mut outer,
         is_expanded,
     } = open;
+    if text == "|" {
+        Piece::join(&run);
+    }
     let must_break = is_expanded || !notes.is_empty() || run.iter().any(Piece::breaks);
     if run.is_empty() && must_break {
         return None;

@@ -21,12 +21,17 @@ pub fn primes_misused(
     args: &[String],
     variable: &str,
 ) -> Option<Diagnostic> {
-    if arities.contains(&1) {
+    let fits = arities.contains(&args.len());
+    if arities.contains(&1) && (args.len() == 1 || !fits) {
         // a wrong number of arguments is reported as such
         return too_high(span, primes);
     }
     let name = &callee.text;
-    let count = arities.first().copied().unwrap_or(args.len());
+    let count = if fits {
+        args.len()
+    } else {
+        arities.first().copied().unwrap_or(args.len())
+    };
     let message = format!(
         "{} is a function of {count} variables: a prime does not say which one is meant",
         quoted(name)
