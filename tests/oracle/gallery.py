@@ -451,7 +451,7 @@ def sponge(x, y, z):
         x, y = greatest(x, y), least(x, y)
         x, y, z = (3 * v - 2 for v in (x, y, z))
         z = z + 2 if z < -1 else z
-    outside = [absolute(v) - 1 for v in (x, y, z)]
+    outside = [absolute(v) - mp.mpf("1.02") for v in (x, y, z)]
     furthest = greatest(greatest(outside[0], outside[1]), outside[2])
     if furthest < 0:
         return furthest / 81
