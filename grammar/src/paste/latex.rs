@@ -180,7 +180,8 @@ impl Translator<'_> {
                 TokenKind::RBrace => return Some((text, n + 1)),
                 TokenKind::Name | TokenKind::Number => {
                     let word = self.word_ahead(n);
-                    if word.contains(['.', '+', '-']) {
+                    // these stand alone as names
+                    if word.contains(['.', '+', '-', '∞', 'π', 'τ', 'φ']) {
                         return None;
                     }
                     text.push_str(word);

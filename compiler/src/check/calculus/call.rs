@@ -24,6 +24,7 @@ impl<'a> Builder<'a> {
             return Value::Error;
         };
         match self.bare_function(first) {
+            Some(name) if self.is_form(name) => self.form_as_function(operator, name),
             Some(name) if operator.kind == Kind::Diff => self.diff_function(name, rest, span),
             Some(name) => self.of_function(operator, name, rest, span),
             None if operator.kind == Kind::Diff => {
@@ -44,6 +45,26 @@ impl<'a> Builder<'a> {
         let is_value = self.scope.get(text).is_some();
         let is_function = self.user_function(text).is_some() || is_builtin_function(text);
         (!is_value && is_function && !self.is_defined_value(text)).then_some(name)
+    }
+
+    /// Whether a name is an operator or another form that takes expressions, not a function of numbers.
+    fn is_form(&self, name: &Name) -> bool {
+        let text = name.text.as_str();
+        let is_loop = matches!(text, "sum" | "product" | "iterate");
+        (is_loop || super::by_name(text).is_some()) && self.user_function(text).is_none()
+    }
+
+    fn form_as_function(&mut self, operator: &Operator, name: &Name) -> Value {
+        let text = &name.text;
+        let message = format!("`{text}` is of expressions, and no function itself");
+        self.report(
+            Diagnostic::error("not-a-function", name.span, message)
+                .with_label("cannot be differentiated by itself")
+                .with_hint(format!(
+                    "write out what is meant: `{}({text}(…), x, y)`",
+                    operator.name
+                )),
+        )
     }
 
     /// `diff(e, x, y, 2)`
