@@ -84,7 +84,7 @@ fn looks_foreign(text: &str) -> bool {
     word.chars().nth(1).is_some()
         && behind.next() == Some(' ')
         && behind.next().is_some_and(|c| c.is_alphabetic() || c == '_')
-        && !["if", "pi", "tau", "phi", "not"].contains(&word)
+        && !["if", "not", "pi", "tau", "phi", "time", "pixel"].contains(&word)
 }
 
 /// The canonical text of one expression.
