@@ -6,6 +6,7 @@ use crate::ast::{
     BinaryOp, CompareOp, Expr, ExprId, Exprs, File, Function, Item, Param, Range, SeriesKind, Show,
     UnaryOp,
 };
+use crate::complaint::foreign_statement;
 use crate::paste::names::is_namespace;
 
 /// How tightly an expression holds together, loosest first.
@@ -81,6 +82,9 @@ fn looks_foreign(text: &str) -> bool {
     let is_letter = |c: char| c.is_alphanumeric() || c == '_';
     let (word, rest) = text.split_at(text.find(|c| !is_letter(c)).unwrap_or(text.len()));
     let mut behind = rest.chars();
+    if foreign_statement(word).is_some() {
+        return true;
+    }
     word.chars().nth(1).is_some()
         && behind.next() == Some(' ')
         && behind.next().is_some_and(|c| c.is_alphabetic() || c == '_')

@@ -10,6 +10,7 @@ mod operator;
 mod statement;
 
 pub(crate) use division::Division;
+pub(crate) use statement::foreign_statement;
 
 use crate::Span;
 use crate::cursor::Parser;

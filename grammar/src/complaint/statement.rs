@@ -362,7 +362,7 @@ impl Parser<'_> {
 }
 
 /// What to do in place of a statement of another language that begins with this word.
-fn foreign_statement(word: &str) -> Option<&'static str> {
+pub(crate) fn foreign_statement(word: &str) -> Option<&'static str> {
     Some(match word {
         "import" | "from" | "using" | "include" | "require" => {
             "remove the line: all functions of the language are there"

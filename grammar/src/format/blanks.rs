@@ -49,6 +49,10 @@ pub(super) fn blank_between(
     use TokenKind::{Caret, Colon, Comma, Dot, DotDot, Equals, LBrace, Slash};
     let (left, right) = (before.0.kind, after.0.kind);
     let is_apart = |token: Token| token.kind.is_keyword() || token.kind == Equals;
+    if right == Dot && matches!(left, TokenKind::Number | TokenKind::Imaginary) {
+        // `0 .f`, which is no number
+        return true;
+    }
     if before.1.opens() || matches!(right, Comma | Colon | DotDot | Dot) || left == Dot {
         return false;
     }

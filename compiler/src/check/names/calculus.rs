@@ -37,7 +37,7 @@ impl<'a> Walk<'a, '_> {
         }
         let shown: Vec<String> = args.iter().map(|&a| print_expr(self.exprs, a)).collect();
         let mut names = args.iter().filter_map(|&arg| self.candidate(arg));
-        let variable = names.next().unwrap_or("x").to_owned();
+        let variable = shortened(names.next().unwrap_or("x"));
         let arities = arities_of(own, text);
         let problem = primes_misused((callee, span), primes, &arities, &shown, &variable);
         let found = problem.is_some();
@@ -237,7 +237,7 @@ impl<'a> Walk<'a, '_> {
         )
         .with_label("not a name");
         let in_shown = self.candidate(first);
-        let candidate = self.candidate(arg).or(in_shown).unwrap_or("x");
+        let candidate = shortened(self.candidate(arg).or(in_shown).unwrap_or("x"));
         let operator_name = operator.name;
         self.diagnostics.push(match &self.exprs[arg] {
             Expr::Member { base, .. } => {
