@@ -1,5 +1,7 @@
 //! LaTeX: commands, groups, scripts and delimiters.
 
+use logos::Logos;
+
 use super::Translator;
 use super::command::{self, Meaning};
 use crate::Span;
@@ -276,10 +278,14 @@ impl Translator<'_> {
         if let Some(token) = self.tokens.get_mut(self.at) {
             self.starts_line |= std::mem::take(&mut token.starts_line);
             token.span.start = middle;
-            // `\frac1x2`: what is left of a name may be a number
+            // what is left of a name may be a number, `\frac1x2`, or a word, `\frac{x}sin`
             let rest = token.span.text(self.text);
             if rest.chars().all(|c| c.is_ascii_digit()) {
                 token.kind = TokenKind::Number;
+            } else if let Some(Ok(word)) = TokenKind::lexer(rest).next()
+                && word.is_keyword()
+            {
+                token.kind = word;
             }
         }
         self.emit(kind, Span::new(span.start, middle));
