@@ -190,7 +190,7 @@ impl<'a> Walk<'a, '_> {
             }
         }
         if total == 0 {
-            let name = self.candidate(first).unwrap_or("x");
+            let name = shortened(self.candidate(first).unwrap_or("x"));
             let message = format!("`{}` does not say by which variable", operator.name);
             self.diagnostics.push(
                 Diagnostic::error("missing-variable", span, message)
