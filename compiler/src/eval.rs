@@ -90,7 +90,7 @@ fn steps(graph: &Graph, schedule: &Schedule, ids: &[Id]) -> Vec<Step> {
 }
 
 fn results(graph: &Graph, plan: &Plan) -> Vec<(Id, Id)> {
-    let leaf = |result: &Id| plan.leaf_of(graph, *result);
+    let leaf = |result: &Id| graph.leaf_of_result(*result);
     let results = plan.results.iter();
     results.filter_map(|r| Some((*r, leaf(r)?))).collect()
 }

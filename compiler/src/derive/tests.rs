@@ -9,6 +9,9 @@ use crate::table::Number;
 /// Next states from the number of steps done and the states.
 type Step = fn(&mut Graph, Id, &[Id]) -> Vec<Id>;
 
+/// The states after some steps, as a loop or written out.
+type Repeat = fn(&mut Graph, u32, &[Id], Step) -> Vec<Id>;
+
 fn looped(g: &mut Graph, steps: u32, inits: &[Id], step: Step) -> Vec<Id> {
     let binder = g.binder();
     let leaves: Vec<Id> = inits
@@ -73,7 +76,7 @@ fn assert_close(a: &[(f64, f64)], b: &[(f64, f64)]) {
 }
 
 /// Two coupled reals, with the counter, an input, and a loop within that takes both.
-fn coupled(g: &mut Graph, k: Id, s: &[Id]) -> Vec<Id> {
+fn coupled_by(g: &mut Graph, k: Id, s: &[Id], repeat: Repeat) -> Vec<Id> {
     let x = g.leaf(Op::Input(0), Ty::Real);
     let half = g.real(0.5);
     let sine = g.apply(Prim::Sin, &[s[1]]);
@@ -82,7 +85,7 @@ fn coupled(g: &mut Graph, k: Id, s: &[Id]) -> Vec<Id> {
     let one = g.real(1.0);
     let below = g.add(k, one);
     let right = g.div(s[0], below);
-    let inner = looped(g, 3, &[right, s[0]], |g, j, t| {
+    let inner = repeat(g, 3, &[right, s[0]], |g, j, t| {
         let product = g.mul(t[0], t[1]);
         let next = g.apply(Prim::Cos, &[product]);
         let sum = g.add(t[0], j);
@@ -93,24 +96,12 @@ fn coupled(g: &mut Graph, k: Id, s: &[Id]) -> Vec<Id> {
     vec![left, right]
 }
 
+fn coupled(g: &mut Graph, k: Id, s: &[Id]) -> Vec<Id> {
+    coupled_by(g, k, s, looped)
+}
+
 fn coupled_out(g: &mut Graph, k: Id, s: &[Id]) -> Vec<Id> {
-    let x = g.leaf(Op::Input(0), Ty::Real);
-    let half = g.real(0.5);
-    let sine = g.apply(Prim::Sin, &[s[1]]);
-    let left = g.mul(half, sine);
-    let left = g.add(left, x);
-    let one = g.real(1.0);
-    let below = g.add(k, one);
-    let right = g.div(s[0], below);
-    let inner = written_out(g, 3, &[right, s[0]], |g, j, t| {
-        let product = g.mul(t[0], t[1]);
-        let next = g.apply(Prim::Cos, &[product]);
-        let sum = g.add(t[0], j);
-        let quarter = g.real(0.25);
-        vec![next, g.mul(quarter, sum)]
-    });
-    let right = g.add(inner[0], inner[1]);
-    vec![left, right]
+    coupled_by(g, k, s, written_out)
 }
 
 /// Value, gradient and every second derivative by x and y, with starts y and x y.
@@ -173,10 +164,7 @@ fn value_and_all_tangents_share_one_loop_in_each_nesting() {
     );
 }
 
-fn complex_jet(
-    step: Step,
-    build: fn(&mut Graph, u32, &[Id], Step) -> Vec<Id>,
-) -> (Graph, Vec<Id>, bool) {
+fn complex_jet(step: Step, build: Repeat) -> (Graph, Vec<Id>, bool) {
     let mut g = Graph::new();
     let z = g.leaf(Op::Input(0), Ty::Complex);
     let start = g.complex(0.25, -0.5);

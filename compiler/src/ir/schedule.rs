@@ -63,18 +63,6 @@ impl Schedule {
     }
 }
 
-impl Plan {
-    /// The leaf of the state that a result node is.
-    #[must_use]
-    pub fn leaf_of(&self, graph: &Graph, result: Id) -> Option<Id> {
-        let Op::Result(index) = graph.node(result).op else {
-            return None;
-        };
-        let mut leaves = self.it.states.iter().map(|state| state.leaf);
-        leaves.find(|&leaf| matches!(graph.node(leaf).op, Op::State(_, k) if k == index))
-    }
-}
-
 fn plan(graph: &Graph, regions: &Regions, it: Loop) -> Plan {
     let mut out = Plan {
         counter: None,

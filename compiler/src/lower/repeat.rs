@@ -133,7 +133,7 @@ impl Lowering<'_, '_, '_> {
 
     fn results(&mut self, plan: &Plan, variables: &[Handle<Expression>]) {
         for &result in &plan.results {
-            let leaf = plan.leaf_of(self.graph, result);
+            let leaf = self.graph.leaf_of_result(result);
             let places = plan.it.states.iter().zip(variables);
             let mut found = places.filter(|(state, _)| Some(state.leaf) == leaf);
             if let Some((_, &variable)) = found.next() {
