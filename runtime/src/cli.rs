@@ -137,42 +137,64 @@ enum Tier {
     Extended,
     /// Double precision, on adapters that have it
     Double,
+    /// The cheapest of these whose error cannot be seen in the picture
+    Auto,
 }
 
 impl Tier {
-    fn precision(self) -> Precision {
+    /// The tier itself; none for the choice of one.
+    fn precision(self) -> Option<Precision> {
         match self {
-            Self::Fast => Precision::Fast,
-            Self::Accurate => Precision::Accurate,
-            Self::Extended => Precision::Extended,
-            Self::Double => Precision::Double,
+            Self::Fast => Some(Precision::Fast),
+            Self::Accurate => Some(Precision::Accurate),
+            Self::Extended => Some(Precision::Extended),
+            Self::Double => Some(Precision::Double),
+            Self::Auto => None,
         }
     }
 }
 
 impl Numbers {
-    /// The tier for a picture with these settings: what the command line says, else the program.
-    fn of(self, settings: &[SettingValue]) -> Precision {
-        self.precision
-            .map(Tier::precision)
-            .or_else(|| set_precision(settings))
-            .unwrap_or_default()
+    /// The tier for a picture with these settings: what the command line says, else the program. None for the choice
+    /// of one.
+    fn wanted(self, settings: &[SettingValue]) -> Option<Precision> {
+        match self.precision {
+            Some(tier) => tier.precision(),
+            None => set_precision(settings),
+        }
+    }
+
+    /// The tier where there is no view that a choice could be made for.
+    fn without_view(self, settings: &[SettingValue]) -> Result<Precision, Failure> {
+        self.wanted(settings).ok_or_else(|| {
+            Failure::usage_hint(
+                "`auto` chooses the precision for a picture, and there is none here",
+                "give --precision accurate, or another",
+            )
+        })
     }
 }
 
 /// The tier that the settings name.
 fn set_precision(settings: &[SettingValue]) -> Option<Precision> {
-    let setting = settings.iter().find(|s| s.spec.name == "precision")?;
+    let Some(setting) = settings.iter().find(|s| s.spec.name == "precision") else {
+        return Some(Precision::default());
+    };
     let word = setting.word()?;
     Precision::ALL.into_iter().find(|p| p.name() == word)
 }
 
-/// Opens the adapter for a tier, and says which it is.
-fn open(device: &Device, precision: Precision, console: &Console) -> Result<Gpu, Failure> {
+/// Opens the adapter, and says which it is.
+fn open(device: &Device, console: &Console) -> Result<Gpu, Failure> {
     let gpu = Gpu::open(&device.adapter)?;
     console.note(&format!("adapter: {}", gpu.adapter()));
+    Ok(gpu)
+}
+
+/// Fails where the adapter does not have the tier.
+fn demand(gpu: &Gpu, precision: Precision) -> Result<(), Failure> {
     if gpu.has(precision) {
-        return Ok(gpu);
+        return Ok(());
     }
     Err(Failure::usage_hint(
         format!("{} has no double precision", gpu.adapter().name),

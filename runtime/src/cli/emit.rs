@@ -81,7 +81,7 @@ pub(super) fn run(arguments: &EmitArguments, console: &Console) -> Result<(), Fa
     let index = source.picture(arguments.which, console)?;
     let precision = arguments
         .numbers
-        .of(&source.program.pictures()[index].settings);
+        .without_view(&source.program.pictures()[index].settings)?;
     let made = source.program.emit(index, what, target, precision);
     let code = source.expect(made, console)?;
     let shown = render::name(&path);

@@ -102,11 +102,12 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
         }
         Place::Gpu => {
             let settings = &source.program.pictures()[index].settings;
-            let precision = arguments.numbers.of(settings);
+            let precision = arguments.numbers.without_view(settings)?;
             let module = source.program.eval_module(index, what, precision);
             let module = source.expect(module, console)?;
             let mut table = Table::open(arguments, &module.inputs)?;
-            let gpu = super::open(&arguments.device, precision, console)?;
+            let gpu = super::open(&arguments.device, console)?;
+            super::demand(&gpu, precision)?;
             let evaluator = GpuEvaluator::new(&gpu, &module)?;
             if module.format.is_wide() {
                 let mut machine = WideOnDevice {
