@@ -303,7 +303,7 @@ fn below_one() -> real {
     return 0.9999999999999999lf;
 }
 
-/// (e^r - 1 - r) / r² for |r| ≤ log(2)/2; coefficients.py.
+/// (e^r - 1 - r) / r² for |r| ≤ log(2)/2; polynomials.py.
 /// Error: 2^-56 of e^r - 1.
 fn exp_tail(r: real) -> real {
     return 0.5000000000000001lf + r * (0.1666666666666667lf + r * (0.041666666666652065lf + r * (
@@ -312,28 +312,28 @@ fn exp_tail(r: real) -> real {
         2.510539626313525e-08lf + r * 1.7687825063192754e-09lf)))))))));
 }
 
-/// (log((1 + s)/(1 - s)) - 2 s - 2 s³/3) / s⁵, z = s² ≤ 0.0295; coefficients.py.
+/// (log((1 + s)/(1 - s)) - 2 s - 2 s³/3) / s⁵, z = s² ≤ 0.0295; polynomials.py.
 /// Error: 2^-59 of the logarithm.
 fn log_rest(z: real) -> real {
     return 0.3999999999977946lf + z * (0.2857142867248649lf + z * (0.22222204963535996lf + z * (
         0.18183262071241504lf + z * (0.15321193027461033lf + z * 0.1472922684306634lf))));
 }
 
-/// (sin r - r) / r³, z = r² ≤ π²/16; coefficients.py.
+/// (sin r - r) / r³, z = r² ≤ π²/16; polynomials.py.
 /// Error: 2^-57 of sin r.
 fn sin_tail(z: real) -> real {
     return -0.16666666666666632lf + z * (0.00833333333332237lf + z * (-0.00019841269829771514lf + z * (
         2.755731367876691e-06lf + z * (-2.505075597414067e-08lf + z * 1.5896667081298702e-10lf))));
 }
 
-/// (cos r - 1 + r²/2) / r⁴, z = r² ≤ π²/16; coefficients.py.
+/// (cos r - 1 + r²/2) / r⁴, z = r² ≤ π²/16; polynomials.py.
 /// Error: 2^-59 of cos r.
 fn cos_tail(z: real) -> real {
     return 0.0416666666666666lf + z * (-0.0013888888888874066lf + z * (2.4801587289444146e-05lf + z * (
         -2.755731434083461e-07lf + z * (2.0875721645778737e-09lf + z * -1.1359560402639843e-11lf))));
 }
 
-/// (arctan t - t) / t³, z = t² ≤ 1/253; coefficients.py.
+/// (arctan t - t) / t³, z = t² ≤ 1/253; polynomials.py.
 /// Error: 2^-61 of arctan t.
 fn atan_tail(z: real) -> real {
     return -0.33333333333333154lf + z * (0.19999999999348494lf + z * (-0.14285713527008606lf + z * (

@@ -379,7 +379,7 @@ fn pair_step(p: vec2f, r: real, hi: f32, lo: f32, zero: u32) -> vec2f {
     return vec2f(s.x, s.y + (lo + (m.y + (p.x * r.y + p.y * r.x))));
 }
 
-/// (e^r - 1 - r) / r² for |r| ≤ log(2)/2; coefficients.py. The terms that matter beyond f32 are pairs.
+/// (e^r - 1 - r) / r² for |r| ≤ log(2)/2; polynomials.py. The terms that matter beyond f32 are pairs.
 /// Error: 2^-50 of e^r - 1.
 fn exp_tail(r: real) -> real {
     let zero = hidden_zero(r.x);
@@ -392,7 +392,7 @@ fn exp_tail(r: real) -> real {
     return pair_step(p, r, 0.5, 6.554719e-16, zero);
 }
 
-/// (log((1 + s)/(1 - s)) - 2 s - 2 s³/3) / s⁵, z = s² ≤ 0.0295; coefficients.py.
+/// (log((1 + s)/(1 - s)) - 2 s - 2 s³/3) / s⁵, z = s² ≤ 0.0295; polynomials.py.
 /// Error: 2^-48 of the logarithm.
 fn log_rest(z: real) -> real {
     let zero = hidden_zero(z.x);
@@ -401,7 +401,7 @@ fn log_rest(z: real) -> real {
     return pair_step(p, z, 0.4, -5.754414e-09, zero);
 }
 
-/// (sin r - r) / r³, z = r² ≤ π²/16; coefficients.py.
+/// (sin r - r) / r³, z = r² ≤ π²/16; polynomials.py.
 /// Error: 2^-52 of sin r.
 fn sin_tail(z: real) -> real {
     let zero = hidden_zero(z.x);
@@ -411,7 +411,7 @@ fn sin_tail(z: real) -> real {
     return pair_step(p, z, -0.16666667, 4.967054e-09, zero);
 }
 
-/// (cos r - 1 + r²/2) / r⁴, z = r² ≤ π²/16; coefficients.py.
+/// (cos r - 1 + r²/2) / r⁴, z = r² ≤ π²/16; polynomials.py.
 /// Error: 2^-52 of cos r.
 fn cos_tail(z: real) -> real {
     let zero = hidden_zero(z.x);
@@ -420,7 +420,7 @@ fn cos_tail(z: real) -> real {
     return pair_step(p, z, 0.041666668, -1.2418282e-09, zero);
 }
 
-/// (arctan t - t) / t³, z = t² ≤ 1/253; coefficients.py.
+/// (arctan t - t) / t³, z = t² ≤ 1/253; polynomials.py.
 /// Error: 2^-50 of arctan t.
 fn atan_tail(z: real) -> real {
     let zero = hidden_zero(z.x);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Print the polynomials at the ends of pair.wgsl and double.wgsl, and the constants of both.
 
-usage: coefficients.py [NAME...]
+usage: polynomials.py [NAME...]
 
 Minimax fits as in ../math/coefficients.py, whose exchange algorithm is used. For pairs the coefficients that matter
 beyond f32 are given as two words, those of the tail as one. Needs: mpmath.
