@@ -242,7 +242,7 @@ fn real_sqrt(a: real) -> real {
     let p = two_product(s, s, zero);
     let rest = opaque(opaque(abs(v.x) - p.x, zero) - p.y, zero) + v.y;
     let r = quick_two_sum(s, opaque(rest / (2.0 * s), zero), zero) * select(1.0, 9.313226e-10, tiny);
-    if pair_is_bare(s) {
+    if pair_is_bare(s) && !(sign_is_set(a) && is_infinite(a)) {
         return a;
     }
     return select(r, make_nan(a), sign_is_set(a));
