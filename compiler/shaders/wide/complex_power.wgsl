@@ -1,11 +1,6 @@
 // Complex powers. z^w = e^(w log z) loses |w log z| units of the last place when log z is rounded: so the logarithm is
 // taken in long numbers, with a dozen bits more than the format has.
 
-/// a b.
-fn long_times(a: Long, b: Long) -> Long {
-    return long_add_real(long_mul(a, b.hi), real_mul(a.hi, b.lo));
-}
-
 /// a / b, a dozen bits better than the format.
 fn long_quotient(a: Long, b: Long) -> Long {
     let q = real_div(a.hi, b.hi);
@@ -144,7 +139,7 @@ fn long_half_pi() -> Long {
 }
 
 /// e^(size + i spin) i^quarters, its exponent apart from the start.
-fn exp_of_long(size: Long, spin: Long, quarters: u32) -> Complex {
+fn complex_exp_of_long(size: Long, spin: Long, quarters: u32) -> Complex {
     let s = exp_apart(size);
     let wave = real_sincos(spin.hi);
     var turned = RealPair(real_add(wave.first, real_mul(wave.second, spin.lo)), real_sub(wave.second, real_mul(wave.first,
@@ -179,7 +174,7 @@ fn power_and_exp(z: Complex, w: Complex, low: real, shift: Complex) -> Complex {
     spin = long_add(spin, long_mul(modulus, w.im));
     spin = long_add_real(long_add_real(spin, shift.im), real_mul(low, arg.hi));
     let quarters = real_sub(count, mul32(real_floor(mul32(count, 0.25)), 4.0));
-    return exp_of_long(size, spin, u32(real_to_f32(quarters)));
+    return complex_exp_of_long(size, spin, u32(real_to_f32(quarters)));
 }
 
 /// A complex number of long parts.

@@ -5,11 +5,6 @@ fn real_atan_slope(x: real) -> real {
     return real_div(num(1.0), real_add(num(1.0), real_square(x)));
 }
 
-/// (1 - x)(1 + x).
-fn one_minus_square(x: real) -> real {
-    return real_mul(real_sub(num(1.0), x), real_add(num(1.0), x));
-}
-
 /// 1/(1 - x²).
 fn real_atanh_slope(x: real) -> real {
     return real_div(num(1.0), one_minus_square(x));
