@@ -34,9 +34,10 @@ fn hidden_zero(seed: f64) -> u64 {
     return u64((odd * odd) & 4u);
 }
 
-/// A hidden zero for an operation on two numbers, one of which may be a constant: of that alone the compiler knows it.
+/// A hidden zero for an operation on two numbers. One of them may be a constant, of which alone the compiler would know
+/// it; and both may be the same.
 fn hidden_zero_of(a: f64, b: f64) -> u64 {
-    return hidden_zero(bitcast<f64>(bitcast<u64>(a) ^ bitcast<u64>(b)));
+    return hidden_zero(bitcast<f64>((bitcast<u64>(a) << 1u) ^ bitcast<u64>(b)));
 }
 
 /// v itself, cut off from the expression that gave it.

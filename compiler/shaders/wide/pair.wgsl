@@ -32,9 +32,10 @@ fn hidden_zero(seed: f32) -> u32 {
     return (odd * odd) & 4u;
 }
 
-/// A hidden zero for an operation on two numbers, one of which may be a constant: of that alone the compiler knows it.
+/// A hidden zero for an operation on two numbers. One of them may be a constant, of which alone the compiler would know
+/// it; and both may be the same.
 fn hidden_zero_of(a: f32, b: f32) -> u32 {
-    return hidden_zero(bitcast<f32>(bitcast<u32>(a) ^ bitcast<u32>(b)));
+    return hidden_zero(bitcast<f32>((bitcast<u32>(a) << 1u) ^ bitcast<u32>(b)));
 }
 
 /// v itself, cut off from the expression that gave it.
