@@ -324,7 +324,17 @@ fn long_product(a: real, b: real) -> Long {
     let r = two_product(a.y, b.x, zero);
     let s = two_sum(q.x, r.x, zero);
     let t = two_sum(p.y, s.x, zero);
-    return pair_long(p.x, t.x, opaque(t.y + s.y, zero), q.y + r.y + a.y * b.y, zero);
+    // all of these are 2^-48 of the product, their errors 2^-72
+    let u = two_product(a.y, b.y, zero);
+    let c = two_sum(t.y, s.y, zero);
+    let d = two_sum(q.y, r.y, zero);
+    let e = two_sum(d.x, u.x, zero);
+    let product = pair_long(p.x, t.x, c.x, e.x, zero);
+    if pair_is_unbounded(p.x) {
+        return product;
+    }
+    let rest = opaque((c.y + d.y) + (e.y + u.y), zero);
+    return Long(product.hi, quick_two_sum(product.lo.x, opaque(product.lo.y + rest, zero), zero));
 }
 
 /// a + b + c + d of falling magnitudes, |a| ≥ |b| where a is not 0.
