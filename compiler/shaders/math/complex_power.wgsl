@@ -49,6 +49,22 @@ fn complex_pow(z: vec2f, w: vec2f) -> vec2f {
     return complex_pow_polar(z, w);
 }
 
+/// z^(w + c) for a small whole real c, the sum exact in two floats.
+fn complex_pow_shift(z: vec2f, w: vec2f, c: vec2f) -> vec2f {
+    let s = two_sum(w.x, c.x, hidden_zero(w.x));
+    if !is_finite(w.x) || s.y == 0.0 {
+        return complex_pow(z, vec2f(s.x, w.y));
+    }
+    let vanishes = magnitude(z.x) == 0.0 && magnitude(z.y) == 0.0;
+    if vanishes || !is_finite(z.x) || !is_finite(z.y) || max(magnitude(w.x), magnitude(w.y)) > 1e30 {
+        return complex_pow_polar(z, vec2f(s.x, w.y));
+    }
+    if magnitude(w.y) == 0.0 && magnitude(z.y) == 0.0 && z.x > 0.0 {
+        return vec2f(real_pow_shift(z.x, w.x, c.x), flip_sign(0.0, sign_bit(z.y) ^ sign_bit(s.x)));
+    }
+    return power_and_exp(z, vec2f(s.x, w.y), s.y, vec2f(0.0, 0.0));
+}
+
 fn complex_pow_polar(z: vec2f, w: vec2f) -> vec2f {
     if magnitude(z.x) == 0.0 && magnitude(z.y) == 0.0 {
         if w.x > 0.0 {

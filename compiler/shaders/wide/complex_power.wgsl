@@ -309,3 +309,15 @@ fn complex_pow(z: Complex, w: Complex) -> Complex {
     }
     return power_and_exp(z, w, num(0.0), complex_of_real(num(0.0)));
 }
+
+/// z^(w + c) for a small whole real c: as `real_pow_shift`.
+fn complex_pow_shift(z: Complex, w: Complex, c: Complex) -> Complex {
+    let s = long_sum(w.re, c.re);
+    let power = complex_pow(z, Complex(s.hi, w.im));
+    let vanishes = is_zero(z.re) && is_zero(z.im);
+    if !is_finite(w.re) || is_zero(s.lo) || vanishes || !is_finite(z.re) || !is_finite(z.im) {
+        return power;
+    }
+    let log = complex_log(z);
+    return complex_mul(power, Complex(real_add(num(1.0), real_mul(s.lo, log.re)), real_mul(s.lo, log.im)));
+}

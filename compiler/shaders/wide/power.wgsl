@@ -132,3 +132,18 @@ fn real_powi(x: real, n: i32) -> real {
     }
     return flip_if(power_of_positive(a, real_from_i32(n)), sign);
 }
+
+/// x^(y + c) for a small whole c: with the rounded sum s and its error e, x^s (1 + e log |x|), for e log |x| is tiny.
+fn real_pow_shift(x: real, y: real, c: real) -> real {
+    let s = long_sum(y, c);
+    if !is_finite(y) || is_zero(s.lo) || is_zero(x) || !is_finite(x) {
+        return real_pow(x, s.hi);
+    }
+    let odd = is_odd(y);
+    if sign_is_set(x) && !real_equal(real_floor(y), y) {
+        return make_nan(x);
+    }
+    let a = real_abs(x);
+    let power = real_mul(real_pow(a, s.hi), real_add(num(1.0), real_mul(s.lo, real_log(a))));
+    return flip_if(power, sign_is_set(x) && odd != is_odd(c));
+}

@@ -114,6 +114,8 @@ pub enum Prim {
     Trigamma,
     /// The n-th derivative of digamma, 2 ≤ n ≤ 5.
     Polygamma(u8),
+    /// `a^(b + c)` for a whole constant c, b + c not rounded.
+    PowShift,
     AtanSlope,
     AtanhSlope,
     AsinSlope,

@@ -1,6 +1,46 @@
 //! Slopes: derivatives of the inverse functions and of lengths, real and complex, without overflow on the way.
 
 use super::complex::{Complex, complex};
+use super::real;
+
+/// x^(y + c) for a whole c: with the rounded sum s and its error e, x^s e^(e log |x|), where |e log |x|| is at most
+/// 2⁻⁴³ unless x^s is infinite or 0.
+pub fn pow_shift(x: f64, y: f64, c: f64) -> f64 {
+    let s = y + c;
+    let e = sum_error(y, c, s);
+    if !y.is_finite() || e == 0.0 || x == 0.0 || !x.is_finite() {
+        return real::pow(x, s);
+    }
+    if x < 0.0 && y.fract() != 0.0 {
+        return f64::NAN;
+    }
+    // of x = |x|, for s may have another parity than y + c
+    let odd = is_odd(y) != is_odd(c);
+    let power = real::pow(x.abs(), s) * (1.0 + e * x.abs().ln());
+    if odd { power.copysign(x) } else { power }
+}
+
+fn is_odd(y: f64) -> bool {
+    y.rem_euclid(2.0) == 1.0
+}
+
+/// a + b - s exactly for the rounded sum s (Knuth, TAOCP 2, 4.2.2).
+fn sum_error(a: f64, b: f64, s: f64) -> f64 {
+    let u = s - a;
+    (a - (s - u)) + (b - u)
+}
+
+/// z^(w + c) for a whole real c, likewise.
+pub fn complex_pow_shift(z: Complex, w: Complex, c: Complex) -> Complex {
+    let s = complex(w.re + c.re, w.im);
+    let e = sum_error(w.re, c.re, s.re);
+    let power = z.pow(s);
+    if !w.re.is_finite() || e == 0.0 || z == Complex::ZERO || !z.is_finite() {
+        return power;
+    }
+    let log = z.log();
+    power * complex(1.0 + e * log.re, e * log.im)
+}
 
 /// 1/(1 + x²).
 pub fn atan(x: f64) -> f64 {

@@ -2,8 +2,8 @@
 
 use naga::{BinaryOperator, MathFunction, UnaryOperator};
 
-use super::derivative::{call, plus, reciprocal, square};
-use super::slope::direction;
+use super::derivative::{reciprocal, square};
+use super::slope::{direction, power_partial};
 use super::{Derivative, Gpu, Row, Typing, Weight};
 use crate::ir::{Graph, Id, Prim};
 use crate::reference::real;
@@ -221,22 +221,5 @@ fn pow_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     let &[base, exponent] = args else {
         return value;
     };
-    let zero = if g.ty(base) == crate::ir::Ty::Complex {
-        g.complex(0.0, 0.0)
-    } else {
-        g.real(0.0)
-    };
-    let at_zero = g.apply(Prim::Equal, &[base, zero]);
-    if k == 0 {
-        let lower = plus(g, exponent, -1.0);
-        let power = g.apply(Prim::Pow, &[base, lower]);
-        let product = g.mul(exponent, power);
-        // only there: for b = 0 alone the mixed derivative 1/a would be lost
-        let constant = g.apply(Prim::Equal, &[exponent, zero]);
-        let both = g.apply(Prim::And, &[constant, at_zero]);
-        return g.apply(Prim::Select, &[both, zero, product]);
-    }
-    let log = call(g, Prim::Log, base);
-    let product = g.mul(value, log);
-    g.apply(Prim::Select, &[at_zero, zero, product])
+    power_partial(g, base, exponent, 0.0, value, k)
 }

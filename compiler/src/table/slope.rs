@@ -3,13 +3,30 @@
 //! Written out by sums and quotients, the derivative of 1/√((1 - x)(1 + x)) is a difference of 1 + x and 1 - x, and
 //! that of x/√(x² + y²) has the factor 1 - (x/r)²: both lose every digit near 0. The rules here do not cancel.
 
-use super::derivative::{nonzero, scaled};
+use super::derivative::{call, nonzero, plus, scaled};
 use super::{Derivative, Gpu, Row, Typing, Weight};
 use crate::ir::{Graph, Id, Prim};
 use crate::reference::slope;
 
 pub fn rows() -> Vec<Row> {
     vec![
+        Row {
+            prim: Prim::PowShift,
+            mnemonic: "pow_shift",
+            names: &[],
+            usage: "",
+            doc: "a^(b + c) for a whole constant c, the sum not rounded: powers in the derivatives of a^b",
+            typing: Typing::Analytic(3),
+            real: Some(|a| slope::pow_shift(a[0], a[1], a[2])),
+            complex: Some(|a| slope::complex_pow_shift(a[0], a[1], a[2])),
+            derivative: Derivative::Partial(pow_shift_partial),
+            gpu: Gpu::Library("real_pow_shift", None),
+            gpu_complex: "complex_pow_shift",
+            cost: Weight {
+                real: 18,
+                complex: 62,
+            },
+        },
         Row {
             prim: Prim::AtanSlope,
             mnemonic: "atan_slope",
@@ -141,6 +158,74 @@ pub fn rows() -> Vec<Row> {
             },
         },
     ]
+}
+
+/// ∂(a^(b+c)): as of a power; c is a constant.
+fn pow_shift_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
+    let &[base, exponent, shift] = args else {
+        return value;
+    };
+    let Some(constant) = g
+        .as_real(shift)
+        .or_else(|| g.as_complex(shift).map(|(re, _)| re))
+    else {
+        return g.real(f64::NAN);
+    };
+    if k == 2 {
+        return g.real(0.0);
+    }
+    power_partial(g, base, exponent, constant, value, k)
+}
+
+/// For the value v = a^(b+c): ∂v/∂a = (b + c) a^(b+c-1), and 0 where a and b + c are; ∂v/∂b = v log a, and 0 at a = 0.
+/// A rounded b + c - 1 would cost |b log a| units: the sum is carried.
+pub fn power_partial(g: &mut Graph, a: Id, b: Id, c: f64, value: Id, k: usize) -> Id {
+    let is_complex = g.ty(a) == crate::ir::Ty::Complex;
+    let constant = |g: &mut Graph, v: f64| {
+        if is_complex {
+            g.complex(v, 0.0)
+        } else {
+            g.real(v)
+        }
+    };
+    let zero = constant(g, 0.0);
+    let at_zero = g.apply(Prim::Equal, &[a, zero]);
+    if k == 0 {
+        let factor = if c == 0.0 { b } else { plus(g, b, c) };
+        let power = shifted_power(g, a, b, c - 1.0);
+        let product = g.mul(factor, power);
+        // only there: for b = 0 alone the mixed derivative 1/a would be lost
+        let flat = g.apply(Prim::Equal, &[factor, zero]);
+        let both = g.apply(Prim::And, &[flat, at_zero]);
+        return g.apply(Prim::Select, &[both, zero, product]);
+    }
+    let log = call(g, Prim::Log, a);
+    let product = g.mul(value, log);
+    g.apply(Prim::Select, &[at_zero, zero, product])
+}
+
+/// a^(b + c); as a plain power where b is a constant and nothing is rounded.
+fn shifted_power(g: &mut Graph, a: Id, b: Id, c: f64) -> Id {
+    let short = |v: f64| f64::from(v as f32) == v;
+    let known = match g.as_complex(b) {
+        Some((re, im)) => Some((re, im)),
+        None => g.as_real(b).map(|re| (re, 0.0)),
+    };
+    let is_complex = g.ty(a) == crate::ir::Ty::Complex;
+    if let Some((re, im)) = known.filter(|&(re, _)| short(re) && short(re + c)) {
+        let sum = if is_complex {
+            g.complex(re + c, im)
+        } else {
+            g.real(re + c)
+        };
+        return g.apply(Prim::Pow, &[a, sum]);
+    }
+    let shift = if is_complex {
+        g.complex(c, 0.0)
+    } else {
+        g.real(c)
+    };
+    g.apply(Prim::PowShift, &[a, b, shift])
 }
 
 /// c · a v², as (a v) v: neither factor overflows before the product does.

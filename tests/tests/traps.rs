@@ -1,0 +1,337 @@
+//! The accuracy traps of existing plotters, each through the whole compiler, from the text of a formula to a dispatch.
+//!
+//! Every argument is a float32 number and every value is for exactly that argument, from arithmetic of 60 digits. The
+//! tolerance of a row is the declared bound of the function, in units in the last place of the machine; 0 demands the
+//! number itself.
+//!
+//! Not here, for they are no matter of a function: the distance |f|/|∇f| at multiple zeros and the 1/ln 2 between log2
+//! and ln in contour lines (both the scenes'), and the few float32 abscissae of a view of width 1e-4 (`tiers`).
+//! (1 - cos z)/z² as it is written cancels on every machine and is repaired by a rewrite: see `stability`.
+
+use std::fmt::Write as _;
+
+use pullback_compiler::What;
+use pullback_compiler::lower::Precision;
+use pullback_tests::accuracy::evaluators::{Machine, Point, suite_gpu};
+use pullback_tests::accuracy::subjects::formula;
+
+/// Every machine that the traps are laid for. Further tiers are further entries.
+fn machines() -> Vec<Machine> {
+    let mut machines = vec![Machine::Reference];
+    if let Some(gpu) = suite_gpu() {
+        for tier in [Precision::Accurate] {
+            machines.push(Machine::Gpu(Box::new(gpu.clone()), tier));
+        }
+    }
+    machines
+}
+
+/// What a machine is called in a message.
+fn label(machine: &Machine) -> String {
+    match machine {
+        Machine::Reference => "f64 reference".to_owned(),
+        Machine::Gpu(gpu, tier) => format!("{} ({})", gpu.adapter().name, tier.name()),
+    }
+}
+
+/// A formula, its argument, what the columns are, and the tolerance in units in the last place of each.
+struct Trap {
+    source: &'static str,
+    args: Vec<f64>,
+    what: What,
+    expected: Vec<f64>,
+    ulps: f64,
+}
+
+fn trap(source: &'static str, args: &[f32], expected: &[f64], ulps: f64) -> Trap {
+    Trap {
+        source,
+        args: args.iter().map(|&x| f64::from(x)).collect(),
+        what: What::Value,
+        expected: expected.to_vec(),
+        ulps,
+    }
+}
+
+/// What is wrong with a result, in words; empty where nothing is.
+fn judge(trap: &Trap, machine: &Machine) -> String {
+    let point = Point {
+        args: trap.args.clone(),
+        params: Vec::new(),
+    };
+    let rows = machine
+        .run(&formula(trap.source), trap.what, &[point])
+        .expect(trap.source);
+    let mut wrong = String::new();
+    for (k, (&got, &expected)) in rows[0].iter().zip(&trap.expected).enumerate() {
+        if expected.is_nan() {
+            continue; // not stated
+        }
+        let within = if expected.is_finite() && expected != 0.0 {
+            (got - expected).abs() <= trap.ulps * machine.format().ulp(expected)
+        } else {
+            got == expected
+        };
+        if !within {
+            let _ = writeln!(
+                wrong,
+                "{}: {} at {:?}: column {k} is {got:e}, not {expected:e}",
+                label(machine),
+                trap.source,
+                trap.args
+            );
+        }
+    }
+    wrong
+}
+
+fn check(traps: &[Trap]) {
+    let mut wrong = String::new();
+    for machine in &machines() {
+        for trap in traps {
+            wrong += &judge(trap, machine);
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+const NOT_STATED: f64 = f64::NAN;
+
+#[test]
+fn logarithms_keep_their_real_part_near_the_unit_circle() {
+    // |0.6 + 0.8i| is not 1 for the float32 numbers next to 0.6 and 0.8
+    check(&[trap(
+        "f(z: complex) = log(z)",
+        &[0.6, 0.8],
+        &[2.384_185_769_699_343e-8, 0.927_295_206_080_683_6],
+        2.1,
+    )]);
+}
+
+#[test]
+fn roots_beside_their_cut_keep_both_parts() {
+    check(&[
+        trap(
+            "f(z: complex) = sqrt(z)",
+            &[-1.0, 1e-4],
+            &[4.999_999_867_439_376e-5, 1.000_000_001_249_999_9],
+            2.1,
+        ),
+        trap(
+            "f(z: complex) = sqrt(z)",
+            &[-1.0, -1e-4],
+            &[4.999_999_867_439_376e-5, -1.000_000_001_249_999_9],
+            2.1,
+        ),
+    ]);
+}
+
+#[test]
+fn quotients_do_not_overflow_on_the_way() {
+    check(&[
+        trap("f(z: complex) = z/z", &[1e30, 1e30], &[1.0, 0.0], 0.0),
+        trap("f(z: complex) = z/z", &[1e-30, 1e-30], &[1.0, 0.0], 0.0),
+        trap("f(z: complex) = z/z", &[3e38, 2e38], &[1.0, 0.0], 0.0),
+    ]);
+}
+
+#[test]
+fn tangents_far_from_the_axis_are_the_unit() {
+    check(&[
+        trap(
+            "f(z: complex) = tan(z)",
+            &[1.0, 100.0],
+            &[NOT_STATED, 1.0],
+            0.0,
+        ),
+        trap(
+            "f(z: complex) = tan(z)",
+            &[1.0, -100.0],
+            &[NOT_STATED, -1.0],
+            0.0,
+        ),
+        trap(
+            "f(z: complex) = tanh(z)",
+            &[50.0, 1.0],
+            &[1.0, NOT_STATED],
+            0.0,
+        ),
+        trap(
+            "f(z: complex) = tanh(z)",
+            &[-50.0, 1.0],
+            &[-1.0, NOT_STATED],
+            0.0,
+        ),
+        // the other part, where float32 can hold it: 4 sin y cos y e^-2x
+        trap(
+            "f(z: complex) = tanh(z)",
+            &[30.0, 1.0],
+            &[1.0, 1.592_454_540_898_266_7e-26],
+            4.3,
+        ),
+    ]);
+}
+
+#[test]
+fn exponentials_do_not_lose_their_phase() {
+    check(&[
+        trap(
+            "f(z: complex) = exp(z)",
+            &[88.0, 2.0],
+            &[-6.873_232_026_423_233e37, 1.501_828_596_718_051_4e38],
+            2.1,
+        ),
+        // e^89 overflows, e^89 cos y does not
+        trap(
+            "f(z: complex) = exp(z)",
+            &[89.0, 1.570_312_5],
+            &[2.172_194_895_880_303_2e35, NOT_STATED],
+            2.1,
+        ),
+    ]);
+}
+
+/// What leaves the range or the digits of float32 as it is written; there a rewrite or a wide tier repairs it.
+#[test]
+fn the_reference_has_the_range_that_singles_lack() {
+    let traps = [
+        trap(
+            "f(z: complex) = diff(z^-8, z)/z^-8",
+            &[1e-5, 0.0],
+            &[-800_000.020_209_700_4, NOT_STATED],
+            12.0,
+        ),
+        trap(
+            "f(x: real) = x^2 - 1e8",
+            &[10_000.001],
+            &[19.531_250_953_674_316],
+            0.0,
+        ),
+        trap(
+            "f(z: complex) = exp(z)",
+            &[100.0, 2.0],
+            &[-1.118_651_444_834_931e43, 2.444_298_000_059_418e43],
+            2.1,
+        ),
+    ];
+    let wrong: String = traps
+        .iter()
+        .map(|t| judge(t, &Machine::Reference))
+        .collect();
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn parts_of_numbers_jump_where_they_should() {
+    let below_one = |x: f32| {
+        for machine in &machines() {
+            let point = Point {
+                args: vec![f64::from(x)],
+                params: Vec::new(),
+            };
+            let rows = machine
+                .run(&formula("f(x: real) = fract(x)"), What::Value, &[point])
+                .expect("fract");
+            assert!(
+                (0.0..1.0).contains(&rows[0][0]),
+                "{}: fract({x}) = {}",
+                label(machine),
+                rows[0][0]
+            );
+        }
+    };
+    for x in [-1e-9, -1e-30, -1e-20, -5.960_464_5e-8, -0.5, 8_388_607.5] {
+        below_one(x);
+    }
+}
+
+/// log10 of the number that is next to a power of ten is the whole number next to it; in f64 it is so for the exact
+/// powers alone.
+#[test]
+fn decimal_logarithms_are_whole_at_powers_of_ten() {
+    for machine in &machines() {
+        let single = !matches!(
+            machine,
+            Machine::Reference | Machine::Gpu(_, Precision::Extended | Precision::Double)
+        );
+        let powers: Vec<i32> = if single {
+            (-37..=38).collect()
+        } else {
+            (0..=10).collect()
+        };
+        let number = |k: &i32| format!("1e{k}").parse::<f32>().expect("a power of ten");
+        let points: Vec<Point> = powers
+            .iter()
+            .map(|k| Point {
+                args: vec![f64::from(number(k))],
+                params: Vec::new(),
+            })
+            .collect();
+        let rows = machine
+            .run(&formula("f(x: real) = log10(x)"), What::Value, &points)
+            .expect("log10");
+        for (k, row) in powers.iter().zip(&rows) {
+            // the correctly rounded logarithm of the float32 number: 10^k (1 + d) has k + d/ln 10
+            let exact = f64::from(number(k)).log10();
+            let nearest = if single {
+                f64::from(exact as f32)
+            } else {
+                exact
+            };
+            assert!(
+                row[0] == nearest,
+                "{}: log10(1e{k}) = {:e}, not {nearest:e}",
+                label(machine),
+                row[0]
+            );
+        }
+    }
+}
+
+#[test]
+fn the_sphere_is_closed_at_infinity() {
+    let sphere = "f(z: complex) = if |z| > 1 then (1 - (1/|z|)^2)/(1 + (1/|z|)^2) else (|z|^2 - 1)/(|z|^2 + 1)";
+    check(&[
+        trap(sphere, &[1e20, 0.0], &[1.0], 0.0),
+        trap(sphere, &[1e38, 1e38], &[1.0], 0.0),
+        trap(sphere, &[0.0, 0.0], &[-1.0], 0.0),
+        // by the tangent of half an angle: (1 - cos) / (1 + cos) = tan², for any modulus
+        trap(
+            "f(z: complex) = -cos(2 atan(|z|))",
+            &[1e20, 1e20],
+            &[1.0],
+            0.0,
+        ),
+    ]);
+}
+
+#[test]
+fn inverse_hyperbolic_cosines_stay_on_their_branch() {
+    // the real part is not negative, and the imaginary part has the sign of that of z
+    check(&[
+        trap(
+            "f(z: complex) = acosh(z)",
+            &[-2.0, 0.5],
+            &[1.361_800_900_857_845_8, 2.863_838_397_032_079_3],
+            2.4,
+        ),
+        trap(
+            "f(z: complex) = acosh(z)",
+            &[-2.0, -0.5],
+            &[1.361_800_900_857_845_8, -2.863_838_397_032_079_3],
+            2.4,
+        ),
+        trap(
+            "f(z: complex) = acosh(z)",
+            &[-2.0, 0.0],
+            &[1.316_957_896_924_816_7, std::f64::consts::PI],
+            2.4,
+        ),
+        trap(
+            "f(z: complex) = acosh(z)",
+            &[0.0, -2.0],
+            &[1.443_635_475_178_810_3, -std::f64::consts::FRAC_PI_2],
+            2.4,
+        ),
+    ]);
+}
