@@ -11,8 +11,10 @@ use crate::Error;
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Features that are turned on where the adapter has them.
-const WELCOME_FEATURES: wgpu::Features =
-    wgpu::Features::SHADER_F64.union(wgpu::Features::TIMESTAMP_QUERY);
+const WELCOME_FEATURES: wgpu::Features = wgpu::Features::SHADER_F64
+    .union(wgpu::Features::SHADER_INT64)
+    .union(wgpu::Features::PASSTHROUGH_SHADERS)
+    .union(wgpu::Features::TIMESTAMP_QUERY);
 
 /// Which adapter to use.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

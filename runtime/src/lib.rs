@@ -17,10 +17,12 @@
 )]
 
 pub mod atomic_file;
+pub mod decorate;
 pub mod device;
 pub mod error;
 pub mod evaluate;
 pub mod image_file;
+pub mod kernel;
 pub mod probe;
 pub mod render;
 pub mod rows;

@@ -1,11 +1,13 @@
 //! From the IR to a naga function.
 
 mod body;
+mod exactness;
 mod function;
 mod identifier;
 mod repeat;
 mod types;
 
+pub use exactness::Exactness;
 pub use function::{Argument, Interface, Leaves, Output, lower};
 pub use identifier::identifier;
 pub use types::NagaTypes;
