@@ -21,10 +21,12 @@ use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use pullback_compiler::SettingValue;
 use pullback_compiler::lower::Precision;
-use pullback_runtime::AdapterChoice;
+use pullback_runtime::{AdapterChoice, Gpu};
 
 pub(crate) use console::Console;
+use failure::Failure;
 use overrides::Assignment;
 
 const EXIT_CODES: &str = "\
@@ -119,26 +121,63 @@ struct Output {
 /// How numbers are computed in shaders.
 #[derive(Clone, Copy, Debug, Args)]
 struct Numbers {
-    /// How numbers are computed in the shader
-    #[arg(long, value_enum, default_value_t = Tier::Accurate)]
-    precision: Tier,
+    /// How numbers are computed in the shader [default: the program's setting `precision`, else accurate]
+    #[arg(long, value_enum)]
+    precision: Option<Tier>,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
+/// A tier, or the choice of one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Tier {
-    /// Single precision with our own functions, of declared error
-    Accurate,
     /// Single precision with the functions of the graphics driver, of any error
     Fast,
+    /// Single precision with our own functions, of declared error
+    Accurate,
+    /// Pairs of single-precision numbers: about 14 digits on every adapter
+    Extended,
+    /// Double precision, on adapters that have it
+    Double,
 }
 
-impl From<Numbers> for Precision {
-    fn from(numbers: Numbers) -> Self {
-        match numbers.precision {
-            Tier::Accurate => Self::Accurate,
-            Tier::Fast => Self::Fast,
+impl Tier {
+    fn precision(self) -> Precision {
+        match self {
+            Self::Fast => Precision::Fast,
+            Self::Accurate => Precision::Accurate,
+            Self::Extended => Precision::Extended,
+            Self::Double => Precision::Double,
         }
     }
+}
+
+impl Numbers {
+    /// The tier for a picture with these settings: what the command line says, else the program.
+    fn of(self, settings: &[SettingValue]) -> Precision {
+        self.precision
+            .map(Tier::precision)
+            .or_else(|| set_precision(settings))
+            .unwrap_or_default()
+    }
+}
+
+/// The tier that the settings name.
+fn set_precision(settings: &[SettingValue]) -> Option<Precision> {
+    let setting = settings.iter().find(|s| s.spec.name == "precision")?;
+    let word = setting.word()?;
+    Precision::ALL.into_iter().find(|p| p.name() == word)
+}
+
+/// Opens the adapter for a tier, and says which it is.
+fn open(device: &Device, precision: Precision, console: &Console) -> Result<Gpu, Failure> {
+    let gpu = Gpu::open(&device.adapter)?;
+    console.note(&format!("adapter: {}", gpu.adapter()));
+    if gpu.has(precision) {
+        return Ok(gpu);
+    }
+    Err(Failure::usage_hint(
+        format!("{} has no double precision", gpu.adapter().name),
+        "--precision extended runs on every adapter",
+    ))
 }
 
 impl Arguments {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use pullback_compiler::lower::Precision;
 use pullback_compiler::scene::{SettingKind, Space};
 use pullback_compiler::{Picture, SettingValue};
 use pullback_runtime::render::{MAX_SAMPLES, MAX_SIDE};
@@ -70,7 +71,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         &params,
         arguments.settings.time,
     );
-    let precision = arguments.numbers.into();
+    let precision = arguments.numbers.of(&settings);
     let scene = source.expect(source.program.scene_module(index, precision), console)?;
     let bytes = scene.pack_settings(&settings);
     let frame = Frame {
@@ -85,8 +86,10 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
             Stage::Fragment => Pipeline::Fragment,
         },
     };
-    let gpu = Gpu::open(&arguments.device.adapter)?;
-    console.note(&format!("adapter: {}", gpu.adapter()));
+    let gpu = super::open(&arguments.device, precision, console)?;
+    if let Some(warning) = unresolved(picture, &frame, precision) {
+        console.warning(&warning);
+    }
     let metadata = metadata(&source, picture, &settings, &frame, &gpu);
     let path = arguments
         .output
@@ -150,6 +153,24 @@ fn view(
     })
 }
 
+/// What to say where the tier gives neighbouring pixels the same point of the plane.
+fn unresolved(picture: &Picture, frame: &Frame, precision: Precision) -> Option<String> {
+    if picture.scene.space == Space::Space || frame.is_resolved(precision.format()) {
+        return None;
+    }
+    let advice = Precision::ALL
+        .into_iter()
+        .find(|finer| frame.is_resolved(finer.format()))
+        .map_or_else(
+            || "no tier does; move or widen the view".to_owned(),
+            |finer| format!("--precision {} does", finer.name()),
+        );
+    Some(format!(
+        "`{}` does not tell the points of neighbouring pixels apart in this view; {advice}",
+        precision.name()
+    ))
+}
+
 /// How the picture came about, without names of files.
 fn metadata(
     source: &Source,
@@ -199,7 +220,7 @@ pub(super) fn written(setting: &SettingValue) -> String {
         SettingKind::Real | SettingKind::Integer => x.to_string(),
         SettingKind::Vec2 => format!("({x}, {y})"),
         SettingKind::Vec3 => format!("({x}, {y}, {z})"),
-        SettingKind::Choice(words) => (*words.get(x as usize).unwrap_or(&"")).to_owned(),
+        SettingKind::Choice(_) => setting.word().unwrap_or_default().to_owned(),
     }
 }
 
