@@ -17,6 +17,7 @@
 )]
 
 pub mod atomic_file;
+pub mod capabilities;
 pub mod decorate;
 pub mod device;
 pub mod error;
@@ -33,6 +34,7 @@ mod tiles;
 mod uniforms;
 
 pub use atomic_file::AtomicFile;
+pub use capabilities::Capabilities;
 pub use device::{AdapterChoice, AdapterSummary, Gpu};
 pub use error::Error;
 pub use evaluate::GpuEvaluator;
