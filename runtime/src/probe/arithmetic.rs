@@ -8,7 +8,7 @@ use crate::kernel::{Contraction, Kernel};
 use crate::{Error, Gpu};
 
 /// Rows of numbers.
-const ROWS: usize = 5000;
+const ROWS: usize = 2000;
 /// Results of a row, as `arithmetic.wgsl` writes them.
 const SLOTS: usize = 22;
 /// An error that is not a number of ulps: a NaN, or an infinity where none belongs.

@@ -8,7 +8,7 @@ use crate::kernel::{Contraction, Kernel};
 use crate::{Error, Gpu};
 
 /// Rows of numbers.
-const ROWS: usize = 5000;
+const ROWS: usize = 2000;
 /// Pairs of results, as `steps.wgsl` writes them.
 const RESULTS: usize = 5;
 

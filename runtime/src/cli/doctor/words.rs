@@ -27,7 +27,7 @@ pub(super) fn text(report: &Report) -> String {
 }
 
 fn line(label: &str, what: &str) -> String {
-    format!("  {label:<10} {what}\n")
+    format!("  {label:<10} {what}").trim_end().to_owned() + "\n"
 }
 
 fn facts(adapter: &AdapterReport) -> String {
@@ -71,13 +71,17 @@ fn tried(trial: &Trial) -> String {
         }
         None => text += &line("f64", "not offered"),
     }
-    for (name, decorated) in [
-        ("f32 decorated", &found.single_decorated),
-        ("f64 decorated", &found.double_decorated),
+    for (format, decorated) in [
+        ("f32", &found.single_decorated),
+        ("f64", &found.double_decorated),
     ] {
         if let Some(decorated) = decorated {
-            text += &line(name, "");
-            text += &habits(decorated);
+            let what = format!(
+                "{format} {}, TwoSum as written {}",
+                order(decorated),
+                exact(decorated.two_sum)
+            );
+            text += &line("decorated", &what);
         }
     }
     let forms: Vec<_> = found
@@ -92,13 +96,7 @@ fn tried(trial: &Trial) -> String {
 fn habits(found: &Arithmetic) -> String {
     let mut text = String::new();
     let mut add = |label: &str, what: String| text += &format!("    {label:<10} {what}\n");
-    let order = match (found.two_sum > 0.0, found.contracted > 0.0) {
-        (false, false) => "kept as written",
-        (true, false) => "sums are reassociated",
-        (false, true) => "products are fused with sums",
-        (true, true) => "sums are reassociated, products fused with sums",
-    };
-    add("order", order.to_owned());
+    add("order", order(found).to_owned());
     add(
         "sums",
         format!(
@@ -145,6 +143,16 @@ fn habits(found: &Arithmetic) -> String {
     add("infinity", signs(&s.infinities));
     add("NaN", signs(&s.nans));
     text
+}
+
+/// What becomes of the order of roundings.
+fn order(found: &Arithmetic) -> &'static str {
+    match (found.two_sum > 0.0, found.contracted > 0.0) {
+        (false, false) => "kept as written",
+        (true, false) => "sums are reassociated",
+        (false, true) => "products are fused with sums",
+        (true, true) => "sums are reassociated, products fused with sums",
+    }
 }
 
 fn exact(share: f64) -> String {
