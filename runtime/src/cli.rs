@@ -67,7 +67,7 @@ enum Command {
     Eval(eval::EvalArguments),
     /// Say what this machine offers and what is missing
     #[command(after_help = EXIT_CODES)]
-    Doctor,
+    Doctor(doctor::DoctorArguments),
     /// List the functions of the language
     Functions(functions::FunctionsArguments),
     /// List the scenes with their settings
@@ -247,7 +247,7 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
         Command::Check(arguments) => check::run(&arguments, console),
         Command::Fmt(arguments) => fmt::run(&arguments, console),
         Command::Eval(arguments) => eval::run(&arguments, console),
-        Command::Doctor => doctor::run(console),
+        Command::Doctor(arguments) => doctor::run(&arguments, console),
         Command::Functions(arguments) => functions::run(&arguments),
         Command::Scenes(arguments) => scenes::run(&arguments),
     };

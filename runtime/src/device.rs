@@ -13,7 +13,9 @@ use crate::Error;
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Features that are turned on where the adapter has them.
-const WELCOME_FEATURES: wgpu::Features = DOUBLE_FEATURES.union(wgpu::Features::TIMESTAMP_QUERY);
+const WELCOME_FEATURES: wgpu::Features = DOUBLE_FEATURES
+    .union(wgpu::Features::PASSTHROUGH_SHADERS)
+    .union(wgpu::Features::TIMESTAMP_QUERY);
 
 /// What the tier `double` needs.
 const DOUBLE_FEATURES: wgpu::Features =

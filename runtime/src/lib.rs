@@ -18,10 +18,13 @@
 
 pub mod atomic_file;
 pub mod auto;
+pub mod capabilities;
+pub mod decorate;
 pub mod device;
 pub mod error;
 pub mod evaluate;
 pub mod image_file;
+pub mod kernel;
 pub mod probe;
 pub mod render;
 pub mod rows;
@@ -32,6 +35,7 @@ mod tiles;
 mod uniforms;
 
 pub use atomic_file::AtomicFile;
+pub use capabilities::Capabilities;
 pub use device::{AdapterChoice, AdapterSummary, Gpu};
 pub use error::Error;
 pub use evaluate::GpuEvaluator;

@@ -23,52 +23,13 @@ struct ComplexPair {
     second: Complex,
 }
 
-// exact steps
-
-/// A zero that no compiler can see: an odd square is 1 modulo 8, so bit 2 of it is never set. Xor with it hides where
-/// a value comes from, so that no algebra reaches across.
-fn hidden_zero(seed: f32) -> u32 {
-    let odd = bitcast<u32>(seed) | 1u;
-    return (odd * odd) & 4u;
-}
+// The exact steps (hidden_zero, opaque, quick_two_sum, two_sum, two_product) stand in exact_*.wgsl, in front of this text.
 
 /// A hidden zero for an operation on two numbers. One of them may be a constant, of which alone the compiler would know
 /// it; and both may be the same.
 fn hidden_zero_of(a: f32, b: f32) -> u32 {
     return hidden_zero(bitcast<f32>((bitcast<u32>(a) << 1u) ^ bitcast<u32>(b)));
 }
-
-/// v itself, cut off from the expression that gave it.
-fn opaque(v: f32, zero: u32) -> f32 {
-    return bitcast<f32>(bitcast<u32>(v) ^ zero);
-}
-
-/// a + b exactly for |a| ≥ |b| or a = 0, as rounded sum and its error (Dekker 1971).
-fn quick_two_sum(a: f32, b: f32, zero: u32) -> vec2f {
-    let s = opaque(a + b, zero);
-    return vec2f(s, b - opaque(s - a, zero));
-}
-
-/// a + b exactly, as rounded sum and its error: sorted, for that is three steps less than Knuth's.
-fn two_sum(a: f32, b: f32, zero: u32) -> vec2f {
-    let ordered = abs(a) >= abs(b);
-    return quick_two_sum(select(b, a, ordered), select(a, b, ordered), zero);
-}
-
-/// a b exactly, as rounded product and its error, where nothing underflows (Dekker 1971; split by masking).
-fn two_product(a: f32, b: f32, zero: u32) -> vec2f {
-    let p = opaque(a * b, zero);
-    let ah = bitcast<f32>(bitcast<u32>(a) & 0xfffff000u);
-    let bh = bitcast<f32>(bitcast<u32>(b) & 0xfffff000u);
-    let al = opaque(a - ah, zero);
-    let bl = opaque(b - bh, zero);
-    let e = opaque(opaque(ah * bh, zero) - p, zero);
-    let f = opaque(e + opaque(ah * bl, zero), zero);
-    let g = opaque(f + opaque(al * bh, zero), zero);
-    return vec2f(p, g + al * bl);
-}
-
-// end of exact steps
 
 /// Whether a word is 0, subnormal, infinite or NaN: then it has no low word beside it.
 fn pair_is_bare(hi: f32) -> bool {

@@ -45,8 +45,12 @@ macro_rules! wide {
     };
 }
 
-/// Functions on pairs of single-precision numbers.
-const PAIR: &str = wide!("pair");
+/// Functions on pairs of single-precision numbers, in front of them the exact steps in the form that is exact everywhere.
+const PAIR: &str = concat!(
+    include_str!("../../shaders/wide/exact_hidden.wgsl"),
+    include_str!("../../shaders/wide/exact_dekker.wgsl"),
+    wide!("pair"),
+);
 
 /// Functions on double-precision numbers.
 const DOUBLE: &str = wide!("double");

@@ -1,6 +1,7 @@
 //! From the IR to a naga function.
 
 mod body;
+mod exactness;
 mod format;
 mod function;
 mod identifier;
@@ -9,6 +10,7 @@ mod numbers;
 mod repeat;
 mod types;
 
+pub use exactness::Exactness;
 pub use format::Format;
 pub use function::{Argument, Interface, Leaves, Output, lower};
 pub use identifier::identifier;
