@@ -16,6 +16,7 @@
     )
 )]
 
+pub mod accuracy;
 pub mod atomic_file;
 pub mod device;
 pub mod error;

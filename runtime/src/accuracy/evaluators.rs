@@ -1,12 +1,12 @@
-//! The evaluators that the suites run: the `f64` reference, and a GPU.
+//! The evaluators that are judged: the `f64` reference, and a GPU by the functions of a tier.
 
 use pullback_compiler::formula::Formula;
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{EvalModule, Evaluator, What};
-use pullback_runtime::evaluate::Surroundings;
-use pullback_runtime::{AdapterChoice, Error, Gpu, GpuEvaluator};
 
 use super::error::Format;
+use crate::evaluate::Surroundings;
+use crate::{Error, Gpu, GpuEvaluator};
 
 /// Arguments and parameters of one evaluation.
 #[derive(Clone, Debug)]
@@ -30,9 +30,15 @@ impl Machine {
     /// The format of its results.
     #[must_use]
     pub fn format(&self) -> Format {
+        self.precision().map_or(Format::Double, format)
+    }
+
+    /// Its tier; `None` for the reference.
+    #[must_use]
+    pub fn precision(&self) -> Option<Precision> {
         match self {
-            Self::Reference => Format::Double,
-            Self::Gpu(..) => Format::Single,
+            Self::Reference => None,
+            Self::Gpu(_, precision) => Some(*precision),
         }
     }
 
@@ -65,6 +71,14 @@ impl Machine {
     }
 }
 
+/// What the numbers of a tier are.
+#[must_use]
+pub fn format(precision: Precision) -> Format {
+    match precision {
+        Precision::Fast | Precision::Accurate => Format::Single,
+    }
+}
+
 /// One dispatch for each run of points with the same parameters.
 fn on_gpu(gpu: &Gpu, module: &EvalModule, points: &[Point]) -> Result<Vec<Vec<f64>>, Error> {
     let mut evaluator = GpuEvaluator::new(gpu, module)?;
@@ -88,34 +102,4 @@ fn on_gpu(gpu: &Gpu, module: &EvalModule, points: &[Point]) -> Result<Vec<Vec<f6
         );
     }
     Ok(out)
-}
-
-/// The GPU that the suites run on: the one that `PULLBACK_ADAPTER` names, else the reference adapter, lavapipe,
-/// else the best. `None` where there is none and `PULLBACK_ALLOW_NO_GPU` is 1, which is printed.
-///
-/// # Panics
-/// There is no adapter and none may be missing.
-#[must_use]
-pub fn suite_gpu() -> Option<Gpu> {
-    let opened = match std::env::var("PULLBACK_ADAPTER") {
-        Ok(name) => Gpu::open(&name.parse().unwrap_or_default()),
-        Err(_) => Gpu::open(&AdapterChoice::Software).or_else(|_| Gpu::open(&AdapterChoice::Auto)),
-    };
-    match opened {
-        Ok(gpu) => {
-            println!("adapter: {}", gpu.adapter());
-            Some(gpu)
-        }
-        Err(error) if std::env::var("PULLBACK_ALLOW_NO_GPU").as_deref() == Ok("1") => {
-            println!("SKIPPED: nothing was tested on a GPU: {error}");
-            None
-        }
-        Err(error) => panic!("{error}; set PULLBACK_ALLOW_NO_GPU=1 to do without a GPU"),
-    }
-}
-
-/// Whether bounds are held to be tight on this adapter.
-#[must_use]
-pub fn is_reference_adapter(gpu: &Gpu) -> bool {
-    gpu.adapter().name.contains("llvmpipe")
 }
