@@ -18,6 +18,7 @@
 
 pub mod accuracy;
 pub mod atomic_file;
+pub mod auto;
 pub mod device;
 pub mod error;
 pub mod evaluate;

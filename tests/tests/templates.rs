@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Function, Module, ScalarKind, Statement, TypeInner, VectorSize};
 use pullback_compiler::link::{Sources, is_stub};
+use pullback_compiler::lower::Format;
 use pullback_compiler::scene::{Scene, SettingKind, Space, scenes};
 use pullback_tests::corpus::{Source, files, read, root};
 use pullback_tests::units::{FIELD_STUBS, evaluations, finite_differences};
@@ -45,7 +46,7 @@ fn every_template_is_valid_by_itself() {
 
 #[test]
 fn the_libraries_are_valid_and_whole() {
-    let sources = Sources::get();
+    let sources = Sources::get(Format::Single);
     for (name, module, folder) in [
         ("the number library", sources.math, "math"),
         ("the drawing library", sources.shared, "shared"),
@@ -108,7 +109,7 @@ fn signature(module: &Module, function: &Function) -> String {
 
 #[test]
 fn stubs_are_of_the_compiler_or_have_their_twin_in_a_library() {
-    let sources = Sources::get();
+    let sources = Sources::get(Format::Single);
     let mut known: BTreeMap<String, String> = BTreeMap::new();
     for module in [sources.math, sources.shared] {
         for (_, function) in module.functions.iter() {
@@ -141,12 +142,15 @@ fn demands_have_the_contract_s_signatures() {
     let allowed: BTreeMap<&str, Vec<&str>> = BTreeMap::from([
         (
             "field",
-            vec!["fn field(p: vec2f) -> f32", "fn field(p: vec3f) -> f32"],
+            vec![
+                "fn field(offset: vec2f) -> f32",
+                "fn field(p: vec3f) -> f32",
+            ],
         ),
         (
             "field_grad",
             vec![
-                "fn field_grad(p: vec2f) -> vec3f",
+                "fn field_grad(offset: vec2f) -> vec3f",
                 "fn field_grad(p: vec3f) -> vec4f",
             ],
         ),
@@ -154,8 +158,8 @@ fn demands_have_the_contract_s_signatures() {
             "field_ray",
             vec!["fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f"],
         ),
-        ("map", vec!["fn map(z: vec2f) -> vec2f"]),
-        ("map_jet", vec!["fn map_jet(z: vec2f) -> Jet"]),
+        ("map", vec!["fn map(offset: vec2f) -> vec2f"]),
+        ("map_jet", vec!["fn map_jet(offset: vec2f) -> Jet"]),
     ]);
     for scene in scenes() {
         let mut demands = 0;
@@ -167,10 +171,10 @@ fn demands_have_the_contract_s_signatures() {
             demands += 1;
             let declared = line.split('{').next().unwrap_or_default().trim();
             assert!(forms.contains(&declared), "{}: {declared}", scene.name);
-            let space = if declared.contains("vec2f) -> f32") || declared.contains("(p: vec2f)") {
-                Space::Plane
-            } else if declared.contains("(z: vec2f)") {
+            let space = if name.starts_with("map") {
                 Space::Complex
+            } else if declared.contains("(offset: vec2f)") {
+                Space::Plane
             } else {
                 Space::Space
             };
@@ -183,8 +187,8 @@ fn demands_have_the_contract_s_signatures() {
 #[test]
 fn no_hardware_derivatives_no_hidden_state() {
     let mut modules = templates();
-    modules.push(("math".into(), Sources::get().math.clone()));
-    modules.push(("shared".into(), Sources::get().shared.clone()));
+    modules.push(("math".into(), Sources::get(Format::Single).math.clone()));
+    modules.push(("shared".into(), Sources::get(Format::Single).shared.clone()));
     for (name, module) in modules {
         let entries = module.entry_points.iter().map(|e| &e.function);
         for function in module.functions.iter().map(|(_, f)| f).chain(entries) {
@@ -358,7 +362,8 @@ fn members(module: &Module, name: &str) -> Option<Vec<(String, TypeInner, u32)>>
 
 #[test]
 fn the_view_is_the_same_everywhere() {
-    let entry = members(&Sources::get().entry.clone(), "View").expect("entry.wgsl has a View");
+    let entry = members(&Sources::get(Format::Single).entry.clone(), "View")
+        .expect("entry.wgsl has a View");
     assert_eq!(entry.len(), 8);
     for scene in scenes() {
         let view = members(&parse(scene.name, scene.template), "View");
@@ -425,8 +430,9 @@ fn settings_of(scene: &Scene) -> Result<(), String> {
         }
     }
     for setting in scene.settings {
-        let in_view = matches!(setting.name, "center" | "height") && scene.space != Space::Space;
-        if !in_view && !members.iter().any(|(name, ..)| name == setting.name) {
+        if setting.is_in_template(scene.space)
+            && !members.iter().any(|(name, ..)| name == setting.name)
+        {
             return Err(format!("the setting `{}` has no member", setting.name));
         }
         let doubled = scene
