@@ -131,6 +131,8 @@ fn place(precision: Option<Precision>) -> Option<usize> {
         None => Some(0),
         Some(Precision::Fast) => None,
         Some(Precision::Accurate) => Some(2),
+        Some(Precision::Extended) => Some(4),
+        Some(Precision::Double) => Some(6),
     }
 }
 

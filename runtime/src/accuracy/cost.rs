@@ -2,7 +2,7 @@
 //!
 //! Every thread evaluates the function many times in a loop whose steps hang on one another, so that nothing can be
 //! left out: x + t f(s) replaces s, where t is a uniform that is 0 and s stays x. The same loop without f is subtracted.
-//! Tiers take turns, and ratios are of one turn, so that other work on the machine counts little.
+//! Tiers take turns, and the shortest of all turns counts: other work on the machine only adds.
 
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{EvalModule, What};
@@ -49,9 +49,16 @@ struct Loops<'m> {
     full: Timed<'m>,
     empty: Timed<'m>,
     steps: f64,
-    /// Seconds for each evaluation in each round, and of an empty step.
-    each: Vec<f64>,
-    idle: Vec<f64>,
+    /// The shortest seconds for a step of each.
+    whole: f64,
+    idle: f64,
+}
+
+impl Loops<'_> {
+    /// Seconds that an evaluation adds to an empty step.
+    fn seconds(&self) -> f64 {
+        (self.whole - self.idle).max(0.0)
+    }
 }
 
 impl<'g> Meter<'g> {
@@ -64,8 +71,8 @@ impl<'g> Meter<'g> {
         Ok(Self {
             gpu,
             clock: Clock::new(gpu)?,
-            rounds: if quick { 3 } else { 7 },
-            aim: if quick { 1e-3 } else { 4e-3 },
+            rounds: if quick { 5 } else { 9 },
+            aim: if quick { 3e-3 } else { 6e-3 },
             threads: if software { 1 << 11 } else { 1 << 17 },
         })
     }
@@ -94,20 +101,15 @@ impl<'g> Meter<'g> {
                 let evaluations = one.steps * f64::from(self.threads);
                 let params = [&[0.0, one.steps], second.as_slice()].concat();
                 let time = |timed: &Timed| timed.seconds(&params).map_err(|e| e.to_string());
-                let idle = time(&one.empty)?;
-                one.each.push((time(&one.full)? - idle) / evaluations);
-                one.idle.push(idle / evaluations);
+                one.idle = one.idle.min(time(&one.empty)? / evaluations);
+                one.whole = one.whole.min(time(&one.full)? / evaluations);
             }
         }
         let (fast, tiers) = loops.split_first().ok_or("no tiers")?;
-        let noticed = median(&fast.each) > NOTICED * median(&fast.idle);
-        let ratio = |one: &Loops| {
-            let ratios = one.each.iter().zip(&fast.each).map(|(a, b)| a / b);
-            median(&ratios.collect::<Vec<_>>()).max(0.0)
-        };
+        let noticed = fast.seconds() > NOTICED * fast.idle;
         let cost = |one: &Loops| Cost {
-            seconds: median(&one.each).max(0.0),
-            relative: noticed.then(|| ratio(one)),
+            seconds: one.seconds(),
+            relative: noticed.then(|| one.seconds() / fast.seconds()),
         };
         Ok(tiers.iter().map(cost).collect())
     }
@@ -130,8 +132,8 @@ impl<'g> Meter<'g> {
             full: timed(call(subject))?,
             empty: timed("s")?,
             steps: FIRST_STEPS,
-            each: Vec::new(),
-            idle: Vec::new(),
+            whole: f64::INFINITY,
+            idle: f64::INFINITY,
         };
         // the first dispatch of a pipeline says little; the second is believed
         let second = &points[0].params;
@@ -216,15 +218,8 @@ fn points(subject: &Subject) -> Result<Vec<Point>, String> {
 /// As many rows as there are threads, as the shader reads them.
 fn rows(points: &[Point], tier: Precision, threads: usize) -> Vec<u8> {
     let numbers = points.iter().cycle().take(threads).flat_map(|p| &p.args);
-    match tier {
-        Precision::Fast | Precision::Accurate => {
-            numbers.flat_map(|&x| (x as f32).to_ne_bytes()).collect()
-        }
-    }
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
+    let format = tier.format();
+    let width = if format.is_wide() { 2 } else { 1 };
+    let words = numbers.flat_map(|&x| format.words(x).into_iter().take(width));
+    words.flat_map(u32::to_ne_bytes).collect()
 }

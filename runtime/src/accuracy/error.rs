@@ -1,28 +1,30 @@
 //! Errors in units of a number format, and the classes of numbers that have none.
 
-use super::tables::Expected;
+pub use pullback_compiler::lower::Format;
 
-/// A format that results are rounded to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// binary32; subnormal results may be zero.
-    Single,
-    /// An unevaluated sum of two binary32, with a unit of 2⁻⁴⁸ of the result; what is below 2⁻¹²⁶ may be lost, also in
-    /// the lower half.
-    Pair,
-    /// binary64, of which only the range of binary32 is judged.
-    Double,
-}
+use super::tables::Expected;
 
 /// The least value that rounds to an infinity of binary32.
 pub const OVERFLOW: f64 = f32::MAX as f64 * (1.0 + 1.0 / (1u64 << 25) as f64);
 /// Tables write what is below this as a zero.
 const NOTHING: f64 = 1e-46;
 
-impl Format {
+/// How results of a format are judged. Of binary32 subnormal results may be zero; a pair of binary32 has a unit of 2⁻⁴⁸ of
+/// the result, and may lose what is below 2⁻¹²⁶, also in its lower half; of binary64 only the range of binary32 is judged.
+pub trait Judge {
     /// What errors of a number of this size are counted in.
-    #[must_use]
-    pub fn unit(self, size: f64) -> f64 {
+    fn unit(self, size: f64) -> f64;
+    /// The unit in words.
+    fn unit_words(self) -> &'static str;
+    /// How many leading bits of a result are right where its error is this many units.
+    fn right_bits(self, units: f64) -> f64;
+    /// Error of a result in units of what it should be, or of `size` where that is greater. Infinite where the result
+    /// is of the wrong class: a NaN for a number, a wrong infinity, a wrong sign of a zero.
+    fn error(self, got: f64, expected: Expected, size: f64) -> f64;
+}
+
+impl Judge for Format {
+    fn unit(self, size: f64) -> f64 {
         let (digits, least) = match self {
             Self::Single => (23, -149),
             Self::Double => (52, -1074),
@@ -32,9 +34,7 @@ impl Format {
         2f64.powi((exponent - digits).max(least))
     }
 
-    /// The unit in words.
-    #[must_use]
-    pub fn unit_words(self) -> &'static str {
+    fn unit_words(self) -> &'static str {
         match self {
             Self::Single => "ulp of float32",
             Self::Pair => "2⁻⁴⁸ of the result",
@@ -42,29 +42,14 @@ impl Format {
         }
     }
 
-    /// How many leading bits of a result are right where its error is this many units.
-    #[must_use]
-    pub fn right_bits(self, units: f64) -> f64 {
-        let (bits, all) = match self {
-            Self::Single => (23.0, 24.0),
-            Self::Pair => (48.0, 48.0),
-            Self::Double => (52.0, 53.0),
-        };
-        (bits - units.log2()).clamp(0.0, all)
+    fn right_bits(self, units: f64) -> f64 {
+        let all = f64::from(self.bits());
+        // an ulp is 2⁻²³ or 2⁻⁵² of a number just above a power of two
+        let first = if self == Self::Pair { all } else { all - 1.0 };
+        (first - units.log2()).clamp(0.0, all)
     }
 
-    /// What may be lost below the range of the format.
-    fn slack(self) -> f64 {
-        match self {
-            Self::Pair => f64::from(f32::MIN_POSITIVE),
-            Self::Single | Self::Double => 0.0,
-        }
-    }
-
-    /// Error of a result in units of what it should be, or of `size` where that is greater. Infinite where the result
-    /// is of the wrong class: a NaN for a number, a wrong infinity, a wrong sign of a zero.
-    #[must_use]
-    pub fn error(self, got: f64, expected: Expected, size: f64) -> f64 {
+    fn error(self, got: f64, expected: Expected, size: f64) -> f64 {
         let Expected::Number {
             value,
             rest,
@@ -106,7 +91,15 @@ impl Format {
         };
         let size = value.abs().max(size.min(f64::from(f32::MAX)));
         let distance = ((got - value) - rest).abs();
-        (distance - self.slack()).max(0.0) / self.unit(size)
+        (distance - slack(self)).max(0.0) / self.unit(size)
+    }
+}
+
+/// What may be lost below the range of a format.
+fn slack(format: Format) -> f64 {
+    match format {
+        Format::Pair => f64::from(f32::MIN_POSITIVE),
+        Format::Single | Format::Double => 0.0,
     }
 }
 

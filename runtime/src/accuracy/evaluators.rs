@@ -30,7 +30,7 @@ impl Machine {
     /// The format of its results.
     #[must_use]
     pub fn format(&self) -> Format {
-        self.precision().map_or(Format::Double, format)
+        self.precision().map_or(Format::Double, Precision::format)
     }
 
     /// Its tier; `None` for the reference.
@@ -71,35 +71,20 @@ impl Machine {
     }
 }
 
-/// What the numbers of a tier are.
-#[must_use]
-pub fn format(precision: Precision) -> Format {
-    match precision {
-        Precision::Fast | Precision::Accurate => Format::Single,
-    }
-}
-
 /// One dispatch for each run of points with the same parameters.
 fn on_gpu(gpu: &Gpu, module: &EvalModule, points: &[Point]) -> Result<Vec<Vec<f64>>, Error> {
     let mut evaluator = GpuEvaluator::new(gpu, module)?;
     let width = module.outputs.len();
     let mut out = Vec::new();
     for run in points.chunk_by(|a, b| a.params == b.params) {
-        let rows: Vec<f32> = run
-            .iter()
-            .flat_map(|p| p.args.iter().map(|&x| x as f32))
-            .collect();
+        let rows: Vec<f64> = run.iter().flat_map(|p| p.args.iter().copied()).collect();
         let mut results = Vec::new();
         let surroundings = Surroundings {
             params: &run[0].params,
             ..Surroundings::default()
         };
-        evaluator.eval(surroundings, run.len(), &rows, &mut results)?;
-        out.extend(
-            results
-                .chunks(width)
-                .map(|row| row.iter().map(|&x| f64::from(x)).collect()),
-        );
+        evaluator.eval_exactly(surroundings, run.len(), &rows, &mut results)?;
+        out.extend(results.chunks(width).map(<[f64]>::to_vec));
     }
     Ok(out)
 }

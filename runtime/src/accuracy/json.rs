@@ -3,6 +3,7 @@
 use pullback_compiler::table::{Bound, Metric};
 use serde::{Serialize, Serializer};
 
+use super::error::Judge;
 use super::measure::{Errors, Witness, in_metric};
 use super::report::{MOST_CASES, metric};
 use super::survey::{Finding, Row, Survey, tier_name};

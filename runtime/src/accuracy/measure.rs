@@ -3,7 +3,7 @@
 use pullback_compiler::What;
 use pullback_compiler::table::{Derivative, Metric};
 
-use super::error::Format;
+use super::error::{Format, Judge};
 use super::evaluators::{Machine, Point};
 use super::subjects::{Subject, formula};
 use super::sweep;
@@ -79,10 +79,7 @@ impl Errors {
         let mut sorted = self.errors.clone();
         sorted.sort_by(f64::total_cmp);
         let place = (sorted.len() as f64 * share).ceil() as usize;
-        sorted
-            .get(place.saturating_sub(1))
-            .copied()
-            .unwrap_or(0.0)
+        sorted.get(place.saturating_sub(1)).copied().unwrap_or(0.0)
     }
 }
 
@@ -196,12 +193,7 @@ fn judge(
 
 /// The largest error of the components of one case.
 #[must_use]
-pub fn case_error(
-    format: Format,
-    got: &[f64],
-    expected: &[Expected],
-    metric: Metric,
-) -> f64 {
+pub fn case_error(format: Format, got: &[f64], expected: &[Expected], metric: Metric) -> f64 {
     let size = match metric {
         Metric::Component => 0.0,
         Metric::Norm => expected.iter().map(size).fold(0.0, f64::max),

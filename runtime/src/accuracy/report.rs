@@ -2,7 +2,7 @@
 
 use pullback_compiler::table::{Bound, Metric};
 
-use super::error::Format;
+use super::error::{Format, Judge};
 use super::measure::{Errors, Witness, in_metric};
 use super::survey::{Finding, Survey, tier_name};
 

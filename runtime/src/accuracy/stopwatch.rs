@@ -4,8 +4,9 @@ use std::sync::mpsc;
 use std::time::Instant;
 
 use pullback_compiler::EvalModule;
+use pullback_compiler::lower::Format;
 
-use crate::uniforms::{self, BatchUniform, MAX_PARAMS};
+use crate::uniforms::{self, BatchUniform, MAX_PARAMS, WideUniform};
 use crate::{Error, Gpu, buffers, render};
 
 /// Size of a workgroup of `compute_main`.
@@ -88,7 +89,9 @@ pub(super) struct Timed<'g> {
     clock: Option<&'g Clock>,
     pipeline: wgpu::ComputePipeline,
     bindings: wgpu::BindGroup,
+    format: Format,
     params: wgpu::Buffer,
+    wide: wgpu::Buffer,
     groups: u32,
 }
 
@@ -112,10 +115,17 @@ impl<'g> Timed<'g> {
         };
         let params = buffers::uniform(gpu, "params", size_of::<[f32; MAX_PARAMS]>())?;
         let batch = buffers::uniform(gpu, "batch", size_of::<BatchUniform>())?;
+        let wide = buffers::uniform(gpu, "wide", size_of::<WideUniform>())?;
         let (pipeline, bindings) = gpu.guarded("compiling the timed pipeline", || {
+            let layout = layout(device);
+            let around = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("timed"),
+                bind_group_layouts: &[Some(&layout)],
+                immediate_size: 0,
+            });
             let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some("timed"),
-                layout: None,
+                layout: Some(&around),
                 module: &shader,
                 entry_point: Some("compute_main"),
                 compilation_options: Default::default(),
@@ -137,8 +147,9 @@ impl<'g> Timed<'g> {
                 columns: module.inputs.len() as u32,
                 results: module.outputs.len() as u32,
             };
-            gpu.queue().write_buffer(&batch, 0, bytemuck::bytes_of(&head));
-            let all = [&inputs, &params, &results, &batch];
+            gpu.queue()
+                .write_buffer(&batch, 0, bytemuck::bytes_of(&head));
+            let all = [&inputs, &params, &results, &batch, &wide];
             let entries: Vec<_> = (0..)
                 .zip(all)
                 .map(|(binding, buffer)| wgpu::BindGroupEntry {
@@ -148,7 +159,7 @@ impl<'g> Timed<'g> {
                 .collect();
             let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("timed"),
-                layout: &pipeline.get_bind_group_layout(0),
+                layout: &layout,
                 entries: &entries,
             });
             (pipeline, bindings)
@@ -158,7 +169,9 @@ impl<'g> Timed<'g> {
             clock,
             pipeline,
             bindings,
+            format: module.format,
             params,
+            wide,
             groups: count.div_ceil(WORKGROUP),
         })
     }
@@ -167,9 +180,11 @@ impl<'g> Timed<'g> {
     pub(super) fn seconds(&self, params: &[f64]) -> Result<f64, Error> {
         let gpu = self.gpu;
         let encoder = gpu.guarded("recording", || {
+            let wide = WideUniform::new(self.format, [0.0; 2], 0.0, 0.0, params);
             let params = uniforms::params(params);
-            gpu.queue()
-                .write_buffer(&self.params, 0, bytemuck::bytes_of(&params));
+            let queue = gpu.queue();
+            queue.write_buffer(&self.params, 0, bytemuck::bytes_of(&params));
+            queue.write_buffer(&self.wide, 0, bytemuck::bytes_of(&wide));
             // what was written must not be part of the time
             gpu.queue().submit([]);
             let mut encoder = gpu.device().create_command_encoder(&Default::default());
@@ -201,4 +216,33 @@ impl<'g> Timed<'g> {
             None => Ok(elapsed),
         }
     }
+}
+
+/// The bindings of an evaluation shader, of any format.
+fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    use wgpu::BufferBindingType::{Storage, Uniform};
+    let kinds = [
+        Storage { read_only: true },
+        Uniform,
+        Storage { read_only: false },
+        Uniform,
+        Uniform,
+    ];
+    let entries: Vec<_> = (0..)
+        .zip(kinds)
+        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("timed"),
+        entries: &entries,
+    })
 }

@@ -71,11 +71,7 @@ pub struct Survey {
 /// The name of a tier, as the command line has it.
 #[must_use]
 pub fn tier_name(tier: Option<Precision>) -> &'static str {
-    match tier {
-        None => "reference",
-        Some(Precision::Fast) => "fast",
-        Some(Precision::Accurate) => "accurate",
-    }
+    tier.map_or("reference", Precision::name)
 }
 
 /// Runs a plan; without a device only the reference can be judged. `progress` is told what part of all is done.
