@@ -126,6 +126,20 @@ fn numbers(cells: &[&str]) -> Option<Vec<f64>> {
     cells.iter().map(|cell| number(cell)).collect()
 }
 
+/// A reference. One with no more digits than a `f64` needs is that `f64`, and so is one that differs from it by no more
+/// than its own rounding: the tables write exact numbers so.
+fn reference(cell: &str) -> Option<Double> {
+    let Double { high, low } = Double::parse(cell)?;
+    let mantissa = cell.split(['e', 'E']).next().unwrap_or(cell);
+    let digits = mantissa.chars().filter(char::is_ascii_digit);
+    let significant = digits.skip_while(|c| *c == '0').count();
+    let exact = significant <= 17 || low.abs() <= 1e-19 * high.abs();
+    Some(Double {
+        high,
+        low: if exact { 0.0 } else { low },
+    })
+}
+
 /// A value: `-` where nothing is stated, `±` before a zero or an infinity of either sign.
 #[must_use]
 pub fn value(cell: &str) -> Option<Expected> {
@@ -133,7 +147,7 @@ pub fn value(cell: &str) -> Option<Expected> {
         return Some(Expected::Unstated);
     }
     let digits = cell.strip_prefix('±');
-    let Double { high, low } = Double::parse(digits.unwrap_or(cell))?;
+    let Double { high, low } = reference(digits.unwrap_or(cell))?;
     Some(Expected::Number {
         value: high,
         rest: low,
@@ -164,7 +178,7 @@ fn slopes(cells: &[&str]) -> Option<Vec<Expected>> {
 
 /// A value of the oracle tables, which do not state the sign of a zero.
 fn unsigned(cell: &str) -> Option<Expected> {
-    let Double { high, low } = Double::parse(cell)?;
+    let Double { high, low } = reference(cell)?;
     Some(Expected::Number {
         value: high,
         rest: low,

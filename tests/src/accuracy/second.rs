@@ -115,11 +115,25 @@ fn references(word: &str, way: &str) -> Vec<(Vec<f64>, Vec<Expected>)> {
         (name == word && of == way).then(|| {
             let number = |cell: &str| cell.parse().expect(cell);
             let args = args.split(' ').map(number).collect();
-            let values = values.split(' ').map(|cell| slope(cell).expect(cell));
+            let values = values
+                .split(' ')
+                .map(|cell| rounded(slope(cell).expect(cell)));
             (args, values.collect())
         })
     });
     rows.collect()
+}
+
+/// Their bounds in f64 are of what is rounded to f64.
+fn rounded(expected: Expected) -> Expected {
+    match expected {
+        Expected::Number { value, signed, .. } => Expected::Number {
+            value,
+            rest: 0.0,
+            signed,
+        },
+        Expected::Unstated => Expected::Unstated,
+    }
 }
 
 /// The formulas of the second derivatives.
