@@ -1,6 +1,7 @@
 //! What may be declared as a bound, and what breaks one.
 
-use pullback_compiler::table::{Bound, Bounds, bounds_of};
+use pullback_compiler::lower::Precision;
+use pullback_compiler::table::{Bound, Bounds, Metric, bounds_of};
 
 use super::error::Format;
 use super::evaluators::Machine;
@@ -15,6 +16,8 @@ pub struct Declared {
     pub value: Option<Bound>,
     /// Of the derivative; `None` also where there is no rule, or no reference.
     pub derivative: Option<Bound>,
+    /// How errors of the value and of the derivative are divided; on the tier `fast` as on `accurate`.
+    pub metrics: [Metric; 2],
     /// Why a bound is high, or not by component; may be empty.
     pub reason: &'static str,
 }
@@ -46,9 +49,15 @@ pub fn declared(subject: &Subject, machine: &Machine) -> Result<Declared, String
     let bounds: &Bounds =
         bounds_of(subject.word, subject.domain == Domain::Complex).ok_or("no bound is declared")?;
     let precision = machine.precision();
+    let like = match precision {
+        Some(Precision::Fast) => Some(Precision::Accurate),
+        other => other,
+    };
+    let metric = |bound: Option<Bound>| bound.map_or(Metric::Component, |b| b.metric);
     let found = Declared {
         value: bounds.value(precision),
         derivative: bounds.derivative(precision),
+        metrics: [bounds.value(like), bounds.derivative(like)].map(metric),
         reason: bounds.reason,
     };
     let format = machine.format();

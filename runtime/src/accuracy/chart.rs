@@ -7,7 +7,7 @@ use pullback_compiler::lower::Precision;
 
 use super::error::{Format, Judge};
 use super::measure::in_metric;
-use super::report::{MOST_CASES, metric};
+use super::report::MOST_CASES;
 use super::survey::{Finding, Row, Survey, tier_name};
 use super::tables::Domain;
 
@@ -177,7 +177,7 @@ fn errors(left: f64, y: f64, row: &Row) -> String {
 }
 
 fn mark(left: f64, y: f64, row: &Row, finding: &Finding) -> String {
-    let errors = in_metric(&finding.measured.value, metric(finding.declared.value));
+    let errors = in_metric(&finding.measured.value, finding.declared.metrics[0]);
     let wrong = !errors.wrong.is_empty();
     let exponent = |units: f64| {
         if units == 0.0 {

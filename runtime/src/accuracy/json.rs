@@ -5,7 +5,7 @@ use serde::{Serialize, Serializer};
 
 use super::error::Judge;
 use super::measure::{Errors, Witness, in_metric};
-use super::report::{MOST_CASES, metric};
+use super::report::MOST_CASES;
 use super::survey::{Finding, Row, Survey, tier_name};
 use super::tables::Expected;
 
@@ -110,19 +110,30 @@ fn function(row: &Row) -> Function<'_> {
 
 fn tier(finding: &Finding) -> Tier {
     let derivative = finding.measured.derivative.as_ref();
+    let [value, slope] = finding.declared.metrics;
     let judged = derivative.filter(|errors| errors[0].count() > 0);
     Tier {
         tier: tier_name(finding.tier),
         unit: finding.format.unit_words(),
-        value: quantity(finding, &finding.measured.value, finding.declared.value),
-        derivative: judged.map(|errors| quantity(finding, errors, finding.declared.derivative)),
+        value: quantity(
+            finding,
+            &finding.measured.value,
+            finding.declared.value,
+            value,
+        ),
+        derivative: judged
+            .map(|errors| quantity(finding, errors, finding.declared.derivative, slope)),
         nanoseconds: finding.cost.map(|cost| cost.seconds * 1e9),
         cost: finding.cost.and_then(|cost| cost.relative),
     }
 }
 
-fn quantity(finding: &Finding, all: &[Errors; 3], bound: Option<Bound>) -> Quantity {
-    let metric = metric(bound);
+fn quantity(
+    finding: &Finding,
+    all: &[Errors; 3],
+    bound: Option<Bound>,
+    metric: Metric,
+) -> Quantity {
     let errors = in_metric(all, metric);
     let most = |metric| in_metric(all, metric).max();
     Quantity {

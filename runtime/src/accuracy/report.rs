@@ -1,6 +1,6 @@
 //! A survey in words: columns of text, Markdown, JSON, and a chart.
 
-use pullback_compiler::table::{Bound, Metric};
+use pullback_compiler::table::Bound;
 
 use super::error::{Format, Judge};
 use super::measure::{Errors, Witness, in_metric};
@@ -116,15 +116,14 @@ pub fn table(survey: &Survey) -> Table {
     for row in &survey.rows {
         for finding in &row.findings {
             let declared = &finding.declared;
-            let metric = metric(declared.value);
-            let errors = in_metric(&finding.measured.value, metric);
+            let [of_value, of_derivative] = declared.metrics;
+            let errors = in_metric(&finding.measured.value, of_value);
             let mut cells = vec![row.subject.name(), tier_name(finding.tier).to_owned()];
             cells.extend(quantity(errors, declared.value));
             cells.push(bits(finding.format, errors));
             cells.extend(match &finding.measured.derivative {
                 Some(of) if of[0].count() > 0 => {
-                    let metric = self::metric(declared.derivative);
-                    quantity(in_metric(of, metric), declared.derivative)
+                    quantity(in_metric(of, of_derivative), declared.derivative)
                 }
                 _ => ["-", "-", "-"].map(str::to_owned),
             });
@@ -134,12 +133,6 @@ pub fn table(survey: &Survey) -> Table {
         }
     }
     table
-}
-
-/// The metric that errors are judged by; by component where nothing is declared.
-#[must_use]
-pub fn metric(bound: Option<Bound>) -> Metric {
-    bound.map_or(Metric::Component, |b| b.metric)
 }
 
 fn quantity(errors: &Errors, bound: Option<Bound>) -> [String; 3] {
