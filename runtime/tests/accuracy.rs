@@ -106,9 +106,9 @@ fn wrong_command_lines() {
     };
     check(&["sine"], 2, "no function `sine`");
     check(
-        &["cosj", "--precision", "reference"],
+        &["atann", "--precision", "reference"],
         2,
-        "did you mean `cos`?",
+        "did you mean `atan`?",
     );
     check(&["hash"], 2, "no references of its own");
     check(&["sin", "--precision", "exact"], 2, "exact");

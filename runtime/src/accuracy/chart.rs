@@ -20,7 +20,7 @@ const PLOT: f64 = 430.0;
 const GAP: f64 = 40.0;
 const MARGIN: f64 = 24.0;
 const LINE: f64 = 19.0;
-const HEAD: f64 = 112.0;
+const HEAD: f64 = 128.0;
 const FOOT: f64 = 30.0;
 
 /// The colours of the tiers, apart also for the colour-blind (Okabe and Ito, "Color Universal Design", 2008).
@@ -89,7 +89,7 @@ fn heading(survey: &Survey) -> String {
         x += 34.0 + 7.0 * name.len() as f64;
     }
     out + &format!(
-        "<text x=\"{x}\" y=\"65\" fill=\"#444444\">dot: largest error, bar: 99.9 % of all cases are below</text>\n"
+        "<text x=\"{MARGIN}\" y=\"81\" font-size=\"10\" fill=\"#444444\">dot: largest error; bar: 99.9 % of all cases; cross: wrong class (NaN, infinity, sign)</text>\n"
     )
 }
 
@@ -103,7 +103,7 @@ fn axis(left: f64, title: &str, lines: usize) -> String {
     let mut out = format!(
         "<text x=\"{}\" y=\"{}\" font-weight=\"bold\" text-anchor=\"end\">{title}</text>\n",
         left - 10.0,
-        HEAD - 8.0
+        HEAD - 25.0
     );
     for line in (1..lines).step_by(2) {
         out += &format!(
@@ -134,15 +134,15 @@ fn axis(left: f64, title: &str, lines: usize) -> String {
         tick += 3.0;
     }
     // one ulp of each format, between 2⁻ᵖ and 2¹⁻ᵖ of a number
-    for (format, name) in [
-        (Format::Single, "ulp of f32"),
-        (Format::Pair, "2⁻⁴⁸"),
-        (Format::Double, "ulp of f64"),
+    for (format, name, anchor) in [
+        (Format::Single, "ulp of f32", "middle"),
+        (Format::Pair, "2⁻⁴⁸", "start"),
+        (Format::Double, "ulp of f64", "end"),
     ] {
         let x = place(left, share(format).log10());
         out += &format!(
             "<line x1=\"{x:.1}\" x2=\"{x:.1}\" y1=\"{}\" y2=\"{bottom}\" stroke=\"#888888\" stroke-dasharray=\"2 3\"/>\n\
-             <text x=\"{x:.1}\" y=\"{}\" font-size=\"9\" text-anchor=\"middle\" fill=\"#666666\">{name}</text>\n",
+             <text x=\"{x:.1}\" y=\"{}\" font-size=\"9\" text-anchor=\"{anchor}\" fill=\"#666666\">{name}</text>\n",
             HEAD - 22.0,
             HEAD - 25.0
         );
