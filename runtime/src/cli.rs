@@ -1,5 +1,6 @@
 //! Arguments, and what each command does.
 
+mod accuracy;
 mod check;
 mod console;
 mod doctor;
@@ -68,6 +69,9 @@ enum Command {
     /// Say what this machine offers and what is missing
     #[command(after_help = EXIT_CODES)]
     Doctor(doctor::DoctorArguments),
+    /// Measure how accurate every function is on this machine, and what it costs
+    #[command(after_help = accuracy::EXIT_CODES)]
+    Accuracy(accuracy::AccuracyArguments),
     /// List the functions of the language
     Functions(functions::FunctionsArguments),
     /// List the scenes with their settings
@@ -248,6 +252,7 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
         Command::Fmt(arguments) => fmt::run(&arguments, console),
         Command::Eval(arguments) => eval::run(&arguments, console),
         Command::Doctor(arguments) => doctor::run(&arguments, console),
+        Command::Accuracy(arguments) => accuracy::run(&arguments, console),
         Command::Functions(arguments) => functions::run(&arguments),
         Command::Scenes(arguments) => scenes::run(&arguments),
     };

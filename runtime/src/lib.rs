@@ -16,6 +16,7 @@
     )
 )]
 
+pub mod accuracy;
 pub mod atomic_file;
 pub mod auto;
 pub mod capabilities;

@@ -1,13 +1,11 @@
-//! How accurate functions and formulas are: references, errors, bounds, and the evaluators that are judged.
+//! How accurate functions and formulas are. What judges a function is the runtime's, for `pullback accuracy`; the formulas
+//! and the second derivatives are here.
 
-pub mod bounds;
-pub mod error;
+pub use pullback_runtime::accuracy::{bounds, error, measure, sweep, tables};
+
 pub mod evaluators;
 pub mod formulas;
 pub mod literature;
-pub mod measure;
 pub mod report;
 pub mod second;
 pub mod subjects;
-pub mod sweep;
-pub mod tables;

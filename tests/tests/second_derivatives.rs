@@ -5,10 +5,9 @@ use pullback_compiler::derive::{ComplexVariable, forward, jet};
 use pullback_compiler::formula::Formula;
 use pullback_compiler::ir::{Graph, Id, Prim, Ty};
 use pullback_compiler::lower::Precision;
-use pullback_compiler::table::{Derivative, Typing, rows};
+use pullback_compiler::table::{Derivative, Metric, Typing, rows};
 use pullback_compiler::types::Type;
 use pullback_tests::accuracy::evaluators::{Machine, Point, is_reference_adapter, suite_gpu};
-use pullback_tests::accuracy::measure::Metric;
 use pullback_tests::accuracy::second::{declared, directional, hessian, measure, seconds};
 use pullback_tests::accuracy::subjects::formula;
 
@@ -42,12 +41,15 @@ fn check(machine: &Machine, tight: bool) {
                 .iter()
                 .map(|w| format!("{name}: wrong class: {w}")),
         );
-        if errors.max() > bound.ulps {
+        if errors.max() > bound.units {
             let (max, worst) = (errors.max(), &errors.worst);
-            found.push(format!("{name}: {max:.2} ulp, not {}: {worst}", bound.ulps));
+            found.push(format!(
+                "{name}: {max:.2} ulp, not {}: {worst}",
+                bound.units
+            ));
         }
-        if tight && bound.ulps > 2.0 * errors.max() + 1.0 {
-            let (max, bound) = (errors.max(), bound.ulps);
+        if tight && bound.units > 2.0 * errors.max() + 1.0 {
+            let (max, bound) = (errors.max(), bound.units);
             found.push(format!(
                 "{name}: the bound {bound} is far above {max:.2} ulp"
             ));

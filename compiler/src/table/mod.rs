@@ -4,6 +4,7 @@
 //! reference and the generated tests read it. Adding an operation is adding a row (and its [`Prim`]).
 
 mod arithmetic;
+mod bounds;
 mod comparison;
 mod complex;
 mod derivative;
@@ -22,6 +23,7 @@ use std::sync::OnceLock;
 use naga::{BinaryOperator, MathFunction, UnaryOperator};
 use rustc_hash::FxHashMap;
 
+pub use bounds::{Bound, Bounds, Metric, bounds, bounds_of};
 pub use number::Number;
 pub(crate) use slope::direction;
 pub use special::MAX_POLYGAMMA;

@@ -277,6 +277,7 @@ pub(super) fn factor(error: f64, scale: f64, format: Format) -> Option<f64> {
     // scales are written with three digits; references with twenty, of which f64 keeps sixteen
     let (unit, slack) = match format {
         Format::Single => (2f64.powi(-24), f64::from(f32::MIN_POSITIVE)),
+        Format::Pair => (2f64.powi(-48), f64::from(f32::MIN_POSITIVE)),
         Format::Double => (2f64.powi(-53), 1e-45),
     };
     let excess = error - slack;

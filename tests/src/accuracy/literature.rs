@@ -311,7 +311,7 @@ impl Published {
                 )
             };
             let limit = match format {
-                Format::Single => OVERFLOW,
+                Format::Single | Format::Pair => OVERFLOW,
                 Format::Double => f64::INFINITY,
             };
             let beyond = expected.iter().any(|e| e.abs() >= limit);

@@ -4,14 +4,15 @@ use pullback_compiler::What;
 use pullback_compiler::derive::{ComplexVariable, forward, jet};
 use pullback_compiler::formula::Formula;
 use pullback_compiler::ir::{Graph, Id, Op, Prim, Ty};
+use pullback_compiler::table::{Bound, Metric};
 use pullback_compiler::types::Type;
 
-use super::bounds::{Bound, bound, permitted};
+use super::bounds::permitted;
 use super::error::Format;
 use super::evaluators::{Machine, Point};
-use super::measure::{Errors, Metric, case_error, words};
+use super::measure::{Errors, Witness, case_error};
 use super::subjects::{formula, subjects};
-use super::tables::{self, Domain, Expected};
+use super::tables::{Domain, Expected, slope};
 
 /// `function domain reference gpu reason`
 const BOUNDS: &str = include_str!("second_bounds.tsv");
@@ -86,7 +87,7 @@ pub fn seconds() -> Vec<Second> {
 
 fn second(word: &'static str, prim: Prim, way: Way, source: &str) -> Second {
     let plain = formula(source);
-    let cases = tables::second(word, way.word());
+    let cases = references(word, way.word());
     let inputs = plain.columns().len();
     let case = |(args, values): (Vec<f64>, Vec<Expected>)| {
         let params = args[inputs..].to_vec();
@@ -99,6 +100,39 @@ fn second(word: &'static str, prim: Prim, way: Way, source: &str) -> Second {
         way,
         formulas: derivatives(&plain, way),
         cases: cases.into_iter().map(case).collect(),
+    }
+}
+
+const REFERENCES: &str = include_str!("../../data/functions/second.tsv");
+
+/// The references of a function, asked about in some way: arguments and second derivatives.
+fn references(word: &str, way: &str) -> Vec<(Vec<f64>, Vec<Expected>)> {
+    let rows = REFERENCES.lines().filter_map(|line| {
+        let cells: Vec<&str> = line.split('\t').collect();
+        let &[name, of, args, values] = cells.as_slice() else {
+            return None;
+        };
+        (name == word && of == way).then(|| {
+            let number = |cell: &str| cell.parse().expect(cell);
+            let args = args.split(' ').map(number).collect();
+            let values = values
+                .split(' ')
+                .map(|cell| rounded(slope(cell).expect(cell)));
+            (args, values.collect())
+        })
+    });
+    rows.collect()
+}
+
+/// Their bounds in f64 are of what is rounded to f64.
+fn rounded(expected: Expected) -> Expected {
+    match expected {
+        Expected::Number { value, signed, .. } => Expected::Number {
+            value,
+            rest: 0.0,
+            signed,
+        },
+        Expected::Unstated => Expected::Unstated,
     }
 }
 
@@ -193,10 +227,11 @@ fn judge(second: &Second, format: Format, results: &[Vec<f64>], metric: Metric) 
     let mut errors = Errors::default();
     for ((point, expected), got) in second.cases.iter().zip(results) {
         assert_eq!(got.len(), expected.len(), "{}", second.word);
-        errors.add(case_error(format, got, expected, metric), || {
-            let (word, way) = (second.word, second.way);
-            let at = (&point.args, &point.params);
-            format!("{word}{way:?} at {at:?}: {got:?} for {}", words(expected))
+        errors.add(case_error(format, got, expected, metric), || Witness {
+            what: format!("{} ({:?})", second.word, second.way),
+            at: [&point.args[..], &point.params].concat(),
+            got: got.clone(),
+            expected: expected.clone(),
         });
     }
     errors
@@ -217,12 +252,12 @@ pub fn declared(second: &Second, machine: &Machine) -> Result<Bound, String> {
     } else {
         3
     };
-    let found = bound(row[place]).ok_or("no bound is declared")?;
+    let found = Bound::parse(row[place]).ok_or("no bound is declared")?;
     let domain = match second.way {
         Way::Complex | Way::Wirtinger => Domain::Complex,
         Way::Real | Way::Plane => Domain::Real,
     };
     let reason = if row[4] == "-" { "" } else { row[4] };
-    permitted(found, domain, machine, reason)?;
+    permitted(found, domain, machine.format(), reason)?;
     Ok(found)
 }

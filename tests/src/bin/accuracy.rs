@@ -1,17 +1,18 @@
-//! Measures how accurate every function and formula is on an adapter, and prints tables. All data is in the binary.
+//! Measures how accurate every formula of the gallery and of the library is on an adapter, and prints tables. All data is
+//! in the binary. Single functions are judged by `pullback accuracy`.
 
 use std::process::ExitCode;
 
 use clap::Parser;
 use pullback_compiler::lower::Precision;
+use pullback_runtime::accuracy::report::Style;
 use pullback_runtime::{AdapterChoice, Gpu};
 use pullback_tests::accuracy::evaluators::Machine;
 use pullback_tests::accuracy::formulas::{gallery, library};
-use pullback_tests::accuracy::report::{Report, formulas, functions, raw};
-use pullback_tests::accuracy::subjects::subjects;
+use pullback_tests::accuracy::report::{Report, formulas};
 
-/// Errors of every function in units in the last place, and of every formula of the gallery in units of the errors
-/// of its roundings, against references of high precision.
+/// Errors of every formula of the gallery and of the library, in units of the errors of its roundings, against
+/// references of high precision.
 #[derive(Parser)]
 struct Options {
     /// `auto`, `gpu`, `software`, or part of an adapter's name; `reference` for the f64 evaluator
@@ -20,23 +21,18 @@ struct Options {
     /// Prints tables of Markdown
     #[arg(long)]
     markdown: bool,
-    /// Prints the largest errors by component, by norm and by unit, from which bounds are declared
-    #[arg(long)]
-    raw: bool,
 }
 
 fn main() -> ExitCode {
     let options = Options::parse();
-    let (machine, builtins) = if options.adapter == "reference" {
-        (Machine::Reference, None)
+    let machine = if options.adapter == "reference" {
+        Machine::Reference
     } else {
         let choice: AdapterChoice = options.adapter.parse().unwrap_or_default();
         match Gpu::open(&choice) {
             Ok(gpu) => {
                 println!("{}\n", gpu.adapter());
-                let gpu = Box::new(gpu);
-                let builtins = Machine::Gpu(gpu.clone(), Precision::Fast);
-                (Machine::Gpu(gpu, Precision::Accurate), Some(builtins))
+                Machine::Gpu(Box::new(gpu), Precision::Accurate)
             }
             Err(error) => {
                 eprintln!("{error}");
@@ -44,21 +40,17 @@ fn main() -> ExitCode {
             }
         }
     };
-    if options.raw {
-        print!("{}", raw(&subjects(), &machine));
-        return ExitCode::SUCCESS;
-    }
     let reports = [
-        (
-            "Functions, in ulp",
-            functions(&subjects(), &machine, builtins.as_ref()),
-        ),
         ("Gallery", formulas(&gallery(), &machine)),
         ("Vectors and the library", formulas(&library(), &machine)),
     ];
+    let (mark, style) = if options.markdown {
+        ("#### ", Style::Markdown)
+    } else {
+        ("", Style::Text)
+    };
     for (title, report) in &reports {
-        let mark = if options.markdown { "#### " } else { "" };
-        println!("{mark}{title}\n\n{}", report.text(options.markdown));
+        println!("{mark}{title}\n\n{}", report.table.text(style));
     }
     verdict(reports.iter().map(|(_, report)| report))
 }

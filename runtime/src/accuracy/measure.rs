@@ -1,39 +1,37 @@
 //! One function on one machine: the largest errors of its value and derivative.
 
 use pullback_compiler::What;
-use pullback_compiler::table::Derivative;
+use pullback_compiler::table::{Derivative, Metric};
 
-use super::error::Format;
+use super::error::{Format, Judge};
 use super::evaluators::{Machine, Point};
 use super::subjects::{Subject, formula};
 use super::sweep;
 use super::tables::{Case, Domain, Expected};
 
-/// How an error is divided.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Metric {
-    /// By the unit in the last place of each component.
-    #[default]
-    Component,
-    /// By that of the greatest component of the result.
-    Norm,
-    /// By that of the greatest component of the result, or of 1 where that is greater: an absolute error where the
-    /// result is small.
-    Unit,
+/// One case with what came out.
+#[derive(Clone, Debug, Default)]
+pub struct Witness {
+    /// What was evaluated.
+    pub what: String,
+    /// The arguments, then the second complex operand if there is one.
+    pub at: Vec<f64>,
+    /// What came out.
+    pub got: Vec<f64>,
+    /// What is right.
+    pub expected: Vec<Expected>,
 }
 
-impl Metric {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Component, Self::Norm, Self::Unit];
-
-    /// Its word in the table of bounds.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Component => "",
-            Self::Norm => "norm",
-            Self::Unit => "unit",
-        }
+impl std::fmt::Display for Witness {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self {
+            what,
+            at,
+            got,
+            expected,
+        } = self;
+        let right = words(expected);
+        write!(f, "{what} at {at:?}: {got:?} for {right}")
     }
 }
 
@@ -43,14 +41,15 @@ pub struct Errors {
     /// One error for each case, the largest of its components.
     errors: Vec<f64>,
     largest: f64,
-    /// The case of the largest error, in words.
-    pub worst: String,
-    /// Cases of the wrong class, in words.
-    pub wrong: Vec<String>,
+    /// The case of the largest error.
+    pub worst: Witness,
+    /// Cases of the wrong class.
+    pub wrong: Vec<Witness>,
 }
 
 impl Errors {
-    pub(super) fn add(&mut self, error: f64, describe: impl FnOnce() -> String) {
+    /// Counts a case; an infinite error is one of the wrong class.
+    pub fn add(&mut self, error: f64, describe: impl FnOnce() -> Witness) {
         if error.is_infinite() {
             self.wrong.push(describe());
             return;
@@ -74,13 +73,13 @@ impl Errors {
         self.largest
     }
 
-    /// The error that one case in a hundred is above.
+    /// The error that a share of all cases does not exceed: 0.999 for that which one in a thousand is above.
     #[must_use]
-    pub fn percentile(&self) -> f64 {
+    pub fn quantile(&self, share: f64) -> f64 {
         let mut sorted = self.errors.clone();
         sorted.sort_by(f64::total_cmp);
-        let place = (sorted.len() * 99).div_ceil(100).saturating_sub(1);
-        sorted.get(place).copied().unwrap_or(0.0)
+        let place = (sorted.len() as f64 * share).ceil() as usize;
+        sorted.get(place.saturating_sub(1)).copied().unwrap_or(0.0)
     }
 }
 
@@ -91,6 +90,16 @@ pub struct Measured {
     pub value: [Errors; 3],
     /// Of the derivative; `None` where the function has no derivative rule.
     pub derivative: Option<[Errors; 3]>,
+}
+
+/// Of the errors in every metric those in one.
+#[must_use]
+pub fn in_metric(errors: &[Errors; 3], metric: Metric) -> &Errors {
+    match metric {
+        Metric::Component => &errors[0],
+        Metric::Norm => &errors[1],
+        Metric::Unit => &errors[2],
+    }
 }
 
 /// What is asked to get a subject's derivative.
@@ -107,7 +116,7 @@ pub(super) fn demand(subject: &Subject) -> What {
 /// # Errors
 /// The machine cannot evaluate it; in words.
 pub fn measure(subject: &Subject, machine: &Machine) -> Result<Measured, String> {
-    let formula = formula(&subject.source);
+    let formula = formula(&subject.source)?;
     let points: Vec<Point> = subject
         .cases
         .iter()
@@ -167,32 +176,24 @@ fn judge(
             let infinite = got.iter().take(of(case).len()).any(|x| !x.is_finite());
             error = if infinite { 0.0 } else { f64::INFINITY };
         }
-        if format == Format::Single
+        if format != Format::Double
             && let Some(flushed) = flushed(subject, case)
         {
             error = error.min(case_error(format, got, of(flushed), metric));
         }
-        errors.add(error, || {
-            format!(
-                "{}{:?} at {:?}{:?}: {:?} for {}",
-                subject.word,
-                subject.domain,
-                case.args,
-                case.params,
-                got,
-                words(of(case))
-            )
+        errors.add(error, || Witness {
+            what: subject.name(),
+            at: [&case.args[..], &case.params].concat(),
+            got: got.to_vec(),
+            expected: of(case).to_vec(),
         });
     }
     errors
 }
 
-pub(super) fn case_error(
-    format: Format,
-    got: &[f64],
-    expected: &[Expected],
-    metric: Metric,
-) -> f64 {
+/// The largest error of the components of one case.
+#[must_use]
+pub fn case_error(format: Format, got: &[f64], expected: &[Expected], metric: Metric) -> f64 {
     let size = match metric {
         Metric::Component => 0.0,
         Metric::Norm => expected.iter().map(size).fold(0.0, f64::max),
@@ -236,7 +237,8 @@ fn flushed<'s>(subject: &'s Subject, case: &Case) -> Option<&'s Case> {
         .find(|c| same(&c.args, &args) && c.params == case.params)
 }
 
-pub(super) fn words(expected: &[Expected]) -> String {
+/// References in words.
+fn words(expected: &[Expected]) -> String {
     let each = |e: &Expected| match e {
         Expected::Unstated => "-".to_owned(),
         Expected::Number { value, .. } => format!("{value:?}"),

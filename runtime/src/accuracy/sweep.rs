@@ -1,0 +1,112 @@
+//! The points at which a machine is judged: the cases of the tables that its format can hold, and many points that no
+//! table has, where the `f64` reference, which the tables hold to its bounds, says what is right.
+
+use pullback_compiler::What;
+use pullback_compiler::table::Derivative;
+
+use super::error::{Format, OVERFLOW};
+use super::evaluators::{Machine, Point};
+use super::measure::demand;
+use super::random::{Random, Spread};
+use super::subjects::{Subject, formula};
+use super::tables::{Case, Expected, WIDE};
+
+/// Beyond this the complex gamma function of the shader library is NaN (docs/numerics.md).
+const GAMMA_FAR: f64 = 1e30;
+/// The remark of a case of a sweep.
+pub const NOTE: &str = "sweep";
+/// Runs of points with the same parameters: each is a dispatch.
+const RUNS: usize = 4;
+
+/// A subject with the cases that a machine is judged by. `each` random points are of every size that float32 has, as
+/// many are of about 1, and as many close to whole and half numbers. For `f64` there are none: nothing better than
+/// the tables could judge them.
+///
+/// # Errors
+/// The reference cannot evaluate it; in words.
+pub fn judged_by(subject: &Subject, machine: &Machine, each: usize) -> Result<Subject, String> {
+    let format = machine.format();
+    let holds = |case: &&Case| format != Format::Single || case.notes != WIDE;
+    let mut cases: Vec<Case> = subject.cases.iter().filter(holds).cloned().collect();
+    if format != Format::Double {
+        cases.extend(swept(subject, format, each)?);
+    }
+    Ok(Subject {
+        cases,
+        ..subject.clone()
+    })
+}
+
+fn swept(subject: &Subject, format: Format, each: usize) -> Result<Vec<Case>, String> {
+    let points = points(subject, format, each)?;
+    let formula = formula(&subject.source)?;
+    let columns = formula.ty.columns();
+    let what = match subject.row.derivative {
+        Derivative::Missing => What::Value,
+        _ => demand(subject),
+    };
+    let results = Machine::Reference.run(&formula, what, &points)?;
+    let case = |(point, result): (Point, Vec<f64>)| {
+        let value: Vec<Expected> = result[..columns].iter().map(|&v| expected(v)).collect();
+        // a NaN has no derivative
+        let known = result[..columns].iter().all(|v| !v.is_nan());
+        let slopes = result[columns..].iter().filter(|_| known);
+        let derivative = slopes.map(|&v| expected(v)).collect();
+        Case {
+            args: point.args,
+            params: point.params,
+            value,
+            derivative,
+            notes: NOTE,
+        }
+    };
+    Ok(points.into_iter().zip(results).map(case).collect())
+}
+
+/// Random arguments of a function.
+///
+/// # Errors
+/// It has no case that says how many there are; in words.
+pub fn points(subject: &Subject, format: Format, each: usize) -> Result<Vec<Point>, String> {
+    let first = subject.cases.first().ok_or("no cases")?;
+    let params = subject.cases.iter().map(|c| c.params.len()).max();
+    let mut random = Random::default();
+    let mut number = |spread: Spread| match format {
+        Format::Pair => random.pair(spread),
+        Format::Single | Format::Double => random.single(spread),
+    };
+    let mut points = Vec::new();
+    for spread in Spread::ALL {
+        let mut values = Vec::new();
+        for k in 0..each {
+            if k % (each / RUNS).max(1) == 0 {
+                values = (0..params.unwrap_or(0))
+                    .map(|_| number(Spread::Ordinary))
+                    .collect();
+            }
+            let args: Vec<f64> = first.args.iter().map(|_| number(spread)).collect();
+            if subject.word == "gamma" && args.iter().any(|x| x.abs() > GAMMA_FAR) {
+                continue;
+            }
+            points.push(Point {
+                args,
+                params: values.clone(),
+            });
+        }
+    }
+    Ok(points)
+}
+
+/// The signs of numbers that vanish are left to the tables.
+fn expected(value: f64) -> Expected {
+    let value = if value.abs() >= OVERFLOW {
+        value * f64::INFINITY
+    } else {
+        value
+    };
+    Expected::Number {
+        value,
+        rest: 0.0,
+        signed: value.abs() > 1.0,
+    }
+}
