@@ -21,10 +21,12 @@ use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use pullback_compiler::SettingValue;
 use pullback_compiler::lower::Precision;
-use pullback_runtime::AdapterChoice;
+use pullback_runtime::{AdapterChoice, Gpu};
 
 pub(crate) use console::Console;
+use failure::Failure;
 use overrides::Assignment;
 
 const EXIT_CODES: &str = "\
@@ -119,26 +121,85 @@ struct Output {
 /// How numbers are computed in shaders.
 #[derive(Clone, Copy, Debug, Args)]
 struct Numbers {
-    /// How numbers are computed in the shader
-    #[arg(long, value_enum, default_value_t = Tier::Accurate)]
-    precision: Tier,
+    /// How numbers are computed in the shader [default: the program's setting `precision`, else accurate]
+    #[arg(long, value_enum)]
+    precision: Option<Tier>,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
+/// A tier, or the choice of one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Tier {
-    /// Single precision with our own functions, of declared error
-    Accurate,
     /// Single precision with the functions of the graphics driver, of any error
     Fast,
+    /// Single precision with our own functions, of declared error
+    Accurate,
+    /// Pairs of single-precision numbers: about 14 digits on every adapter
+    Extended,
+    /// Double precision, on adapters that have it
+    Double,
+    /// The cheapest of these whose error cannot be seen in the picture
+    Auto,
 }
 
-impl From<Numbers> for Precision {
-    fn from(numbers: Numbers) -> Self {
-        match numbers.precision {
-            Tier::Accurate => Self::Accurate,
-            Tier::Fast => Self::Fast,
+impl Tier {
+    /// The tier itself; none for the choice of one.
+    fn precision(self) -> Option<Precision> {
+        match self {
+            Self::Fast => Some(Precision::Fast),
+            Self::Accurate => Some(Precision::Accurate),
+            Self::Extended => Some(Precision::Extended),
+            Self::Double => Some(Precision::Double),
+            Self::Auto => None,
         }
     }
+}
+
+impl Numbers {
+    /// The tier for a picture with these settings: what the command line says, else the program. None for the choice
+    /// of one.
+    fn wanted(self, settings: &[SettingValue]) -> Option<Precision> {
+        match self.precision {
+            Some(tier) => tier.precision(),
+            None => set_precision(settings),
+        }
+    }
+
+    /// The tier where there is no view that a choice could be made for.
+    fn without_view(self, settings: &[SettingValue]) -> Result<Precision, Failure> {
+        self.wanted(settings).ok_or_else(|| {
+            Failure::usage_hint(
+                "`auto` chooses the precision for a picture, and there is none here",
+                "give --precision accurate, or another",
+            )
+        })
+    }
+}
+
+/// The tier that the settings name.
+fn set_precision(settings: &[SettingValue]) -> Option<Precision> {
+    let Some(setting) = settings.iter().find(|s| s.spec.name == "precision") else {
+        return Some(Precision::default());
+    };
+    let word = setting.word()?;
+    Precision::ALL.into_iter().find(|p| p.name() == word)
+}
+
+/// Opens the adapter, and says which it is.
+fn open(device: &Device, console: &Console) -> Result<Gpu, Failure> {
+    let gpu = Gpu::open(&device.adapter)?;
+    console.note(&format!("adapter: {}", gpu.adapter()));
+    Ok(gpu)
+}
+
+/// Fails where the adapter does not have the tier.
+fn demand(gpu: &Gpu, precision: Precision) -> Result<(), Failure> {
+    if gpu.has(precision) {
+        return Ok(());
+    }
+    Err(Failure::usage_hint(
+        format!("{} has no double precision", gpu.adapter().name),
+        "--precision extended runs on every adapter",
+    ))
 }
 
 impl Arguments {

@@ -5,14 +5,19 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
+use pullback_compiler::lower::{Format, Precision};
+
 use crate::Error;
 
 /// Longest wait for one submission. Submissions are sized to take a fraction of a second.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Features that are turned on where the adapter has them.
-const WELCOME_FEATURES: wgpu::Features =
-    wgpu::Features::SHADER_F64.union(wgpu::Features::TIMESTAMP_QUERY);
+const WELCOME_FEATURES: wgpu::Features = DOUBLE_FEATURES.union(wgpu::Features::TIMESTAMP_QUERY);
+
+/// What the tier `double` needs.
+const DOUBLE_FEATURES: wgpu::Features =
+    wgpu::Features::SHADER_F64.union(wgpu::Features::SHADER_INT64);
 
 /// Which adapter to use.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -229,6 +234,12 @@ impl Gpu {
     #[must_use]
     pub fn adapter(&self) -> &AdapterSummary {
         &self.adapter
+    }
+
+    /// Whether shaders of a tier can run on it.
+    #[must_use]
+    pub fn has(&self, precision: Precision) -> bool {
+        precision.format() != Format::Double || self.device.features().contains(DOUBLE_FEATURES)
     }
 
     /// The wgpu device.

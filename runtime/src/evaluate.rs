@@ -3,9 +3,10 @@
 use std::time::{Duration, Instant};
 
 use pullback_compiler::EvalModule;
+use pullback_compiler::lower::Format;
 
 use crate::buffers::{self, Growing};
-use crate::uniforms::{self, BatchUniform, MAX_PARAMS};
+use crate::uniforms::{self, BatchUniform, MAX_PARAMS, WideUniform};
 use crate::{Error, Gpu, render};
 
 /// Size of a workgroup of `compute_main`.
@@ -36,11 +37,13 @@ pub struct GpuEvaluator {
     layout: wgpu::BindGroupLayout,
     inputs: Vec<String>,
     outputs: Vec<String>,
+    format: Format,
     rows: Growing,
     results: Growing,
     readable: Growing,
     params: wgpu::Buffer,
     batch: wgpu::Buffer,
+    wide: wgpu::Buffer,
     bindings: Option<wgpu::BindGroup>,
     /// Rows that the next submission may have.
     budget: u64,
@@ -73,6 +76,7 @@ impl GpuEvaluator {
                     buffer(1, Uniform),
                     buffer(2, Storage { read_only: false }),
                     buffer(3, Uniform),
+                    buffer(4, Uniform),
                 ],
             });
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -96,11 +100,13 @@ impl GpuEvaluator {
             layout,
             inputs: module.inputs.clone(),
             outputs: module.outputs.clone(),
+            format: module.format,
             rows: Growing::inputs(),
             results: Growing::results(),
             readable: Growing::readable(),
             params: buffers::uniform(gpu, "params", size_of::<[f32; MAX_PARAMS]>())?,
             batch: buffers::uniform(gpu, "batch", size_of::<BatchUniform>())?,
+            wide: buffers::uniform(gpu, "wide", size_of::<WideUniform>())?,
             bindings: None,
             budget: FIRST,
         })
@@ -121,7 +127,7 @@ impl GpuEvaluator {
     /// Evaluates `count` rows, one after another in `rows`, and appends their results to `results`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if `rows` is not `count` rows long, and the device's errors.
+    /// [`Error::Invalid`] if `rows` is not `count` rows long or the module's format is wide, and the device's errors.
     pub fn eval(
         &mut self,
         surroundings: Surroundings,
@@ -129,19 +135,70 @@ impl GpuEvaluator {
         rows: &[f32],
         results: &mut Vec<f32>,
     ) -> Result<(), Error> {
-        let columns = self.inputs.len();
+        if self.format.is_wide() {
+            let reason = "rows of single precision for a shader of another format".into();
+            return Err(Error::Invalid { reason });
+        }
+        let start = results.len();
+        let mut words: Vec<u32> = bytemuck::cast_vec(std::mem::take(results));
+        let done = self.eval_words(surroundings, count, bytemuck::cast_slice(rows), &mut words);
+        *results = bytemuck::cast_vec(words);
+        if done.is_err() {
+            results.truncate(start);
+        }
+        done
+    }
+
+    /// [`Self::eval`] for any format: numbers are rounded to it, and results are given in all their digits.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if `rows` is not `count` rows long, and the device's errors.
+    pub fn eval_exactly(
+        &mut self,
+        surroundings: Surroundings,
+        count: usize,
+        rows: &[f64],
+        results: &mut Vec<f64>,
+    ) -> Result<(), Error> {
+        let format = self.format;
+        let width = self.words();
+        let mut words = Vec::with_capacity(rows.len() * width);
+        for &x in rows {
+            words.extend_from_slice(&format.words(x)[..width]);
+        }
+        let mut out = Vec::new();
+        self.eval_words(surroundings, count, &words, &mut out)?;
+        results.extend(out.chunks_exact(width).map(|number| {
+            let second = number.get(1).copied().unwrap_or(0);
+            format.from_words([number[0], second])
+        }));
+        Ok(())
+    }
+
+    /// Words that hold a number.
+    fn words(&self) -> usize {
+        if self.format.is_wide() { 2 } else { 1 }
+    }
+
+    fn eval_words(
+        &mut self,
+        surroundings: Surroundings,
+        count: usize,
+        rows: &[u32],
+        results: &mut Vec<u32>,
+    ) -> Result<(), Error> {
+        let columns = self.inputs.len() * self.words();
         if count.checked_mul(columns) != Some(rows.len()) {
             return Err(Error::Invalid {
-                reason: format!("{} numbers for {count} rows of {columns}", rows.len()),
+                reason: format!(
+                    "{} numbers for {count} rows of {}",
+                    rows.len() / self.words(),
+                    self.inputs.len()
+                ),
             });
         }
-        self.gpu.guarded("upload", || {
-            let params = uniforms::params(surroundings.params);
-            self.gpu
-                .queue()
-                .write_buffer(&self.params, 0, bytemuck::bytes_of(&params));
-        })?;
-        results.reserve(count.saturating_mul(self.outputs.len()));
+        self.upload(surroundings)?;
+        results.reserve(count.saturating_mul(self.outputs.len() * self.words()));
         let mut done = 0;
         while done < count {
             let size = usize::try_from(self.budget.min(self.capacity())).unwrap_or(1);
@@ -155,13 +212,29 @@ impl GpuEvaluator {
         Ok(())
     }
 
+    /// Writes what is the same for all rows.
+    fn upload(&self, surroundings: Surroundings) -> Result<(), Error> {
+        let Surroundings {
+            params,
+            time,
+            pixel,
+        } = surroundings;
+        let wide = WideUniform::new(self.format, [0.0; 2], time, pixel, params);
+        self.gpu.guarded("upload", || {
+            let queue = self.gpu.queue();
+            let params = uniforms::params(params);
+            queue.write_buffer(&self.params, 0, bytemuck::bytes_of(&params));
+            queue.write_buffer(&self.wide, 0, bytemuck::bytes_of(&wide));
+        })
+    }
+
     /// Rows for which the device has room.
     fn capacity(&self) -> u64 {
         let limits = self.gpu.device().limits();
         let bytes = limits
             .max_storage_buffer_binding_size
             .min(limits.max_buffer_size);
-        let widest = self.inputs.len().max(self.outputs.len()).max(1) as u64;
+        let widest = (self.inputs.len().max(self.outputs.len()).max(1) * self.words()) as u64;
         let groups = u64::from(limits.max_compute_workgroups_per_dimension).pow(2);
         MOST.min(bytes / 4 / widest)
             .min(groups.saturating_mul(WORKGROUP))
@@ -179,13 +252,14 @@ impl GpuEvaluator {
         &mut self,
         surroundings: Surroundings,
         count: usize,
-        rows: &[f32],
-        results: &mut Vec<f32>,
+        rows: &[u32],
+        results: &mut Vec<u32>,
     ) -> Result<(), Error> {
         let gpu = self.gpu.clone();
-        let bytes = (count * self.outputs.len()).max(1) as u64 * 4;
-        // A function of no arguments still has its binding.
-        let (row_buffer, new_rows) = self.rows.at_least(&gpu, rows.len().max(1) as u64 * 4)?;
+        let wanted = count * self.outputs.len() * self.words();
+        // A function of no arguments or results still has its bindings, with room for one number.
+        let bytes = wanted.max(2) as u64 * 4;
+        let (row_buffer, new_rows) = self.rows.at_least(&gpu, rows.len().max(2) as u64 * 4)?;
         let (result_buffer, new_results) = self.results.at_least(&gpu, bytes)?;
         let (readable, _) = self.readable.at_least(&gpu, bytes)?;
         if new_rows || new_results {
@@ -205,7 +279,13 @@ impl GpuEvaluator {
         let line = groups.div_ceil(lines);
         let encoder = gpu.guarded("recording", || {
             let bindings = self.bindings.get_or_insert_with(|| {
-                let all = [&row_buffer, &self.params, &result_buffer, &self.batch];
+                let all = [
+                    &row_buffer,
+                    &self.params,
+                    &result_buffer,
+                    &self.batch,
+                    &self.wide,
+                ];
                 let entries: Vec<_> = (0..)
                     .zip(all)
                     .map(|(binding, buffer)| wgpu::BindGroupEntry {
@@ -232,13 +312,12 @@ impl GpuEvaluator {
             encoder.copy_buffer_to_buffer(&result_buffer, 0, &readable, 0, bytes);
             encoder
         })?;
-        let wanted = count * self.outputs.len();
         buffers::submit_and_read(&gpu, "evaluation", encoder, &readable, bytes, |seen| {
             let numbers = seen
                 .as_chunks::<4>()
                 .0
                 .iter()
-                .map(|&b| f32::from_le_bytes(b));
+                .map(|&b| u32::from_le_bytes(b));
             results.extend(numbers.take(wanted));
         })
     }

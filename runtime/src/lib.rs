@@ -17,6 +17,7 @@
 )]
 
 pub mod atomic_file;
+pub mod auto;
 pub mod device;
 pub mod error;
 pub mod evaluate;

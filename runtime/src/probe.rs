@@ -2,6 +2,7 @@
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use pullback_compiler::EvalModule;
+use pullback_compiler::lower::Format;
 
 use crate::evaluate::Surroundings;
 use crate::{Error, Gpu, GpuEvaluator};
@@ -61,6 +62,7 @@ fn module() -> Result<EvalModule, Error> {
         info,
         inputs: vec!["a".into(), "b".into()],
         outputs: vec![String::new(); RESULTS],
+        format: Format::Single,
     })
 }
 

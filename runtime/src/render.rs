@@ -8,9 +8,10 @@ use std::time::Instant;
 
 use naga::Module;
 use pullback_compiler::SceneModule;
+use pullback_compiler::lower::Format;
 
 use crate::tiles::{self, Budget, Pending, Tile};
-use crate::uniforms::{self, MAX_PARAMS, ViewUniform};
+use crate::uniforms::{self, MAX_PARAMS, ViewUniform, WideUniform};
 use crate::{Error, Gpu, buffers};
 
 use compute::ComputeStage;
@@ -68,6 +69,31 @@ pub struct Frame<'a> {
     pub pipeline: Pipeline,
 }
 
+/// Least number of representable points of the plane from one pixel to the next, along each axis, for which a picture
+/// counts as resolved: with two, the error of a pixel's point is a quarter of a pixel.
+const POINTS_PER_PIXEL: f64 = 2.0;
+
+impl Frame<'_> {
+    /// World units per pixel.
+    #[must_use]
+    pub fn pixel(&self) -> f64 {
+        self.view.height / f64::from(self.size.height)
+    }
+
+    /// Whether a format tells the points of neighbouring pixels apart, everywhere in the view.
+    #[must_use]
+    pub fn is_resolved(&self, format: Format) -> bool {
+        let pixel = self.pixel();
+        let half = [self.size.width, self.size.height].map(|side| 0.5 * f64::from(side) * pixel);
+        let reach = (0..2).map(|k| self.view.center[k].abs() + half[k]);
+        let spacing =
+            |reach: f64| reach.log2().floor().exp2() * 0.5f64.powi(format.bits() as i32 - 1);
+        reach
+            .into_iter()
+            .all(|reach| pixel >= POINTS_PER_PIXEL * spacing(reach))
+    }
+}
+
 /// Takes the rows of a picture from top to bottom.
 pub trait RowSink {
     /// Takes whole rows of 8-bit sRGB with alpha.
@@ -96,17 +122,19 @@ impl RowSink for Vec<u8> {
 pub struct Renderer {
     gpu: Gpu,
     shader: wgpu::ShaderModule,
+    format: Format,
     uniforms: Uniforms,
     compute: Option<ComputeStage>,
     fragment: Option<FragmentStage>,
 }
 
-/// The uniform buffers at bindings 0, 1 and 2.
+/// The uniform buffers at bindings 0, 1, 2 and 4.
 #[derive(Debug)]
 struct Uniforms {
     view: wgpu::Buffer,
     params: wgpu::Buffer,
     settings: wgpu::Buffer,
+    wide: wgpu::Buffer,
 }
 
 impl Renderer {
@@ -118,10 +146,12 @@ impl Renderer {
         Ok(Self {
             gpu: gpu.clone(),
             shader: load(gpu, &scene.module)?,
+            format: scene.format,
             uniforms: Uniforms {
                 view: buffers::uniform(gpu, "view", size_of::<ViewUniform>())?,
                 params: buffers::uniform(gpu, "params", size_of::<[f32; MAX_PARAMS]>())?,
                 settings: buffers::uniform(gpu, "settings", scene.settings_size.max(16))?,
+                wide: buffers::uniform(gpu, "wide", size_of::<WideUniform>())?,
             },
             compute: None,
             fragment: None,
@@ -232,11 +262,15 @@ impl Renderer {
 
     /// Writes what is the same for all tiles.
     fn upload(&self, frame: &Frame) -> Result<(), Error> {
+        let View { center, height } = frame.view;
+        let pixel = height / f64::from(frame.size.height);
+        let wide = WideUniform::new(self.format, center, frame.time, pixel, frame.params);
         self.gpu.guarded("upload", || {
             let queue = self.gpu.queue();
             let params = uniforms::params(frame.params);
             queue.write_buffer(&self.uniforms.params, 0, bytemuck::bytes_of(&params));
             queue.write_buffer(&self.uniforms.settings, 0, frame.settings);
+            queue.write_buffer(&self.uniforms.wide, 0, bytemuck::bytes_of(&wide));
         })
     }
 
@@ -288,21 +322,21 @@ impl Uniforms {
             view: self.view.clone(),
             params: self.params.clone(),
             settings: self.settings.clone(),
+            wide: self.wide.clone(),
         }
     }
 
-    /// Bindings 0, 1 and 2.
-    fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 3] {
-        [&self.view, &self.params, &self.settings].map({
-            let mut binding = 0;
-            move |buffer| {
-                let entry = wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                };
-                binding += 1;
-                entry
-            }
+    /// Bindings 0, 1, 2 and 4.
+    fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 4] {
+        let buffers = [
+            (0, &self.view),
+            (1, &self.params),
+            (2, &self.settings),
+            (4, &self.wide),
+        ];
+        buffers.map(|(binding, buffer)| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
         })
     }
 }
@@ -338,9 +372,9 @@ pub(crate) fn load(gpu: &Gpu, module: &Module) -> Result<wgpu::ShaderModule, Err
     })
 }
 
-/// Layout of bindings 0, 1 and 2.
-fn uniform_layout(visibility: wgpu::ShaderStages) -> [wgpu::BindGroupLayoutEntry; 3] {
-    [0, 1, 2].map(|binding| wgpu::BindGroupLayoutEntry {
+/// Layout of bindings 0, 1, 2 and 4.
+fn uniform_layout(visibility: wgpu::ShaderStages) -> [wgpu::BindGroupLayoutEntry; 4] {
+    [0, 1, 2, 4].map(|binding| wgpu::BindGroupLayoutEntry {
         binding,
         visibility,
         ty: wgpu::BindingType::Buffer {

@@ -1,5 +1,7 @@
 //! The bytes of the uniform buffers that every shader module shares.
 
+use pullback_compiler::lower::Format;
+
 /// Number of user parameters that fit the uniform `params: array<vec4f, 16>`.
 pub(crate) const MAX_PARAMS: usize = 64;
 
@@ -43,6 +45,39 @@ pub(crate) struct BatchUniform {
     pub results: u32,
 }
 
+/// `struct Wide` of the wide libraries: numbers in all digits of the tier, two words each.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct WideUniform {
+    /// World coordinates of the view's centre.
+    pub center: [[u32; 2]; 2],
+    /// Seconds, and world units per pixel.
+    pub clock: [[u32; 2]; 2],
+    /// The program's parameters.
+    pub params: [[u32; 2]; MAX_PARAMS],
+}
+
+impl WideUniform {
+    /// The numbers in a format; parameters beyond those given are zero.
+    pub(crate) fn new(
+        format: Format,
+        center: [f64; 2],
+        time: f64,
+        pixel: f64,
+        params: &[f64],
+    ) -> Self {
+        let mut all = [[0; 2]; MAX_PARAMS];
+        for (slot, &value) in all.iter_mut().zip(params) {
+            *slot = format.words(value);
+        }
+        Self {
+            center: center.map(|x| format.words(x)),
+            clock: [time, pixel].map(|x| format.words(x)),
+            params: all,
+        }
+    }
+}
+
 /// The parameters in the order of the program, zero beyond them.
 pub(crate) fn params(values: &[f64]) -> [f32; MAX_PARAMS] {
     let mut all = [0.0; MAX_PARAMS];
@@ -61,7 +96,8 @@ mod tests {
         let module = naga::front::wgsl::parse_str(
             "struct View { center: vec2f, size: vec2f, tile: vec2f, pixel: f32, time: f32,
                            samples: u32, zero: u32, tile_size: vec2u }
-             struct Batch { count: u32, zero: u32, time: f32, pixel: f32, columns: u32, results: u32 }",
+             struct Batch { count: u32, zero: u32, time: f32, pixel: f32, columns: u32, results: u32 }
+             struct Wide { center: vec4u, clock: vec4u, params: array<vec4u, 32> }",
         )
         .unwrap();
         let size = |name: &str| {
@@ -74,6 +110,7 @@ mod tests {
         };
         assert_eq!(size("View"), size_of::<ViewUniform>());
         assert_eq!(size("Batch"), size_of::<BatchUniform>());
+        assert_eq!(size("Wide"), size_of::<WideUniform>());
     }
 
     #[test]

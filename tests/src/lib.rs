@@ -5,6 +5,8 @@
 pub mod accuracy;
 pub mod calculus;
 pub mod corpus;
+#[cfg(feature = "gpu")]
+pub mod deep_zoom;
 pub mod formatting;
 pub mod holds;
 pub mod loops;

@@ -52,8 +52,8 @@ struct Jet {
     dzbar: vec2f,
 }
 
-// f with ∂f/∂z and ∂f/∂z̄
-fn map_jet(z: vec2f) -> Jet { return Jet(); }
+// f with ∂f/∂z and ∂f/∂z̄ at the offset from the view's centre
+fn map_jet(offset: vec2f) -> Jet { return Jet(); }
 
 fn is_nan(x: f32) -> bool { return false; }
 fn is_inf(x: f32) -> bool { return false; }
@@ -78,8 +78,9 @@ struct Polar {
 // Rates beyond this many periods a pixel are the same to every filter.
 const FASTEST: f32 = 1e6;
 
-fn world_from_pixel(pixel: vec2f) -> vec2f {
-    return view.center + (pixel - 0.5 * view.size) * vec2f(view.pixel, -view.pixel);
+// World units from the centre of the view. The formula's function adds the centre, in all digits of its tier.
+fn offset_from_pixel(pixel: vec2f) -> vec2f {
+    return (pixel - 0.5 * view.size) * vec2f(view.pixel, -view.pixel);
 }
 
 // Side of one sample's share of a pixel, in pixels: the window of every filter here.
@@ -227,7 +228,7 @@ fn overflow_colour(pixel: vec2f) -> vec3f {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let jet = map_jet(world_from_pixel(pixel));
+    let jet = map_jet(offset_from_pixel(pixel));
     // One infinite part makes a complex number infinite, whatever the other part is (C99, Annex G).
     if is_inf(jet.value.x) || is_inf(jet.value.y) {
         return vec4f(overflow_colour(pixel), 1.0);

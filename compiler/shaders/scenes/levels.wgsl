@@ -42,8 +42,8 @@ struct Settings {
 @group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
 @group(0) @binding(2) var<uniform> settings: Settings;
 
-// (∂f/∂x, ∂f/∂y, f)
-fn field_grad(p: vec2f) -> vec3f { return vec3f(); }
+// (∂f/∂x, ∂f/∂y, f) at the offset from the view's centre
+fn field_grad(offset: vec2f) -> vec3f { return vec3f(); }
 
 fn is_nan(x: f32) -> bool { return false; }
 fn is_inf(x: f32) -> bool { return false; }
@@ -57,8 +57,9 @@ fn hatch(pixel: vec2f, slope: f32, period: f32, duty: f32, window: f32) -> f32 {
 // Level lines may darken an area by no more than this on average, however dense they are.
 const DENSEST: f32 = 0.34;
 
-fn world_from_pixel(pixel: vec2f) -> vec2f {
-    return view.center + (pixel - 0.5 * view.size) * vec2f(view.pixel, -view.pixel);
+// World units from the centre of the view. The formula's function adds the centre, in all digits of its tier.
+fn offset_from_pixel(pixel: vec2f) -> vec2f {
+    return (pixel - 0.5 * view.size) * vec2f(view.pixel, -view.pixel);
 }
 
 // Side of one sample's share of a pixel, in pixels: the window of every filter here.
@@ -158,7 +159,7 @@ fn infinite_colour(pixel: vec2f, t: f32) -> vec3f {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let jet = field_grad(world_from_pixel(pixel));
+    let jet = field_grad(offset_from_pixel(pixel));
     let value = jet.z;
     if is_nan(value) {
         return vec4f(undefined_colour(pixel), 1.0);

@@ -9,7 +9,7 @@ use naga::{
 use super::Target;
 use crate::formula::{Formula, scalar_types};
 use crate::ir::Op;
-use crate::link::{Linker, math_module};
+use crate::link::{Linker, number_module};
 use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
 use crate::module::{Evaluation, ModuleError, What, evaluation};
 use crate::numeral::Numeral;
@@ -35,7 +35,7 @@ pub fn standalone(
 ) -> Result<(Module, ModuleInfo, String), ModuleError> {
     let formula = &picture.formula;
     let evaluation = evaluation(formula, what)?;
-    let mut linker = Linker::new(vec![math_module()]);
+    let mut linker = Linker::new(vec![number_module(precision.format())]);
     let types = NagaTypes::insert(&mut linker.out.types);
     let arguments = arguments(program, formula, &evaluation, types);
     let [value, gradient, derivative] = function_names(&formula.name);
@@ -60,15 +60,16 @@ pub fn standalone(
         leaves: arguments.leaves,
         output,
         precision,
+        wide: false,
     };
     let function = lower(&evaluation.graph, &evaluation.roots, interface, &mut linker)?;
-    let handle = linker.append(&name, function);
+    let handle = linker.append(function);
     let mut module = linker.out;
     if target == Target::Glsl {
         add_main(&mut module, handle);
     }
     naga::compact::compact(&mut module, naga::compact::KeepUnused::Yes);
-    let info = crate::module::validate(&module)?;
+    let info = crate::module::validate(&module, precision)?;
     let header = format!(
         "{name}({}) returns {returns}",
         arguments.described.join(", ")

@@ -51,8 +51,8 @@ pub struct Linker<'a> {
     /// The function that each name means: the first that is not a stub, in the order of the sources.
     by_name: FxHashMap<&'a str, Place>,
     importers: Vec<Importer>,
-    done: FxHashMap<String, Handle<Function>>,
-    active: Vec<String>,
+    done: FxHashMap<Place, Handle<Function>>,
+    active: Vec<Place>,
 }
 
 impl<'a> Linker<'a> {
@@ -113,16 +113,26 @@ impl<'a> Linker<'a> {
         name: &str,
         provider: &mut dyn Provider,
     ) -> Result<Handle<Function>, LinkError> {
-        if let Some(&handle) = self.done.get(name) {
-            return Ok(handle);
-        }
-        if self.active.iter().any(|n| n == name) {
-            return Err(LinkError::Circle(name.to_owned()));
-        }
         let Some(&place) = self.by_name.get(name) else {
             return Err(LinkError::Missing(name.to_owned()));
         };
-        self.active.push(name.to_owned());
+        self.at(place, name, provider)
+    }
+
+    /// The copy of the function at a place, or what stands in for it where it is a stub.
+    fn at(
+        &mut self,
+        place: Place,
+        name: &str,
+        provider: &mut dyn Provider,
+    ) -> Result<Handle<Function>, LinkError> {
+        if let Some(&handle) = self.done.get(&place) {
+            return Ok(handle);
+        }
+        if self.active.contains(&place) {
+            return Err(LinkError::Circle(name.to_owned()));
+        }
+        self.active.push(place);
         let body = self.sources[place.source].functions[place.function].clone();
         let declared = self.signature(place.source, &body)?;
         let generated = if is_stub(&body) {
@@ -137,14 +147,44 @@ impl<'a> Linker<'a> {
             None => self.copy(place.source, body, provider)?,
         };
         self.active.pop();
-        Ok(self.append(name, function))
+        let handle = self.append(function);
+        self.done.insert(place, handle);
+        Ok(handle)
     }
 
-    /// Adds a finished function under a name.
-    pub fn append(&mut self, name: &str, function: Function) -> Handle<Function> {
-        let handle = self.out.functions.append(function, Span::UNDEFINED);
-        self.done.insert(name.to_owned(), handle);
-        handle
+    /// What a module means by a function that it calls: its own where it has more than a stub of it and the function
+    /// that has the name has another signature, else that function.
+    fn callee(
+        &mut self,
+        source: usize,
+        callee: Handle<Function>,
+        provider: &mut dyn Provider,
+    ) -> Result<Handle<Function>, LinkError> {
+        let module = self.sources[source];
+        let own = &module.functions[callee];
+        let name = own.name.as_deref().unwrap_or_default();
+        let declared = self.signature(source, own)?;
+        let Some(&named) = self.by_name.get(name) else {
+            return Err(LinkError::Missing(name.to_owned()));
+        };
+        let meant = &self.sources[named.source].functions[named.function];
+        let meant = self.signature(named.source, meant)?;
+        if same_signature(&declared, &meant) {
+            return self.at(named, name, provider);
+        }
+        if is_stub(own) {
+            return Err(LinkError::Signature(name.to_owned()));
+        }
+        let place = Place {
+            source,
+            function: callee,
+        };
+        self.at(place, name, provider)
+    }
+
+    /// Adds a finished function.
+    pub fn append(&mut self, function: Function) -> Handle<Function> {
+        self.out.functions.append(function, Span::UNDEFINED)
     }
 
     /// The global variable of this name, copied from the first source that has it.
@@ -200,13 +240,7 @@ impl<'a> Linker<'a> {
             if callees.contains_key(&callee) {
                 continue;
             }
-            let declared = &module.functions[callee];
-            let name = declared.name.clone().unwrap_or_default();
-            let handle = self.function(&name, provider)?;
-            let declared = self.signature(source, declared)?;
-            if !same_signature(&declared, &self.out.functions[handle]) {
-                return Err(LinkError::Signature(name));
-            }
+            let handle = self.callee(source, callee, provider)?;
             callees.insert(callee, handle);
         }
         let importer = &mut self.importers[source];

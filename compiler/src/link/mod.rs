@@ -9,4 +9,4 @@ mod linker;
 mod sources;
 
 pub use linker::{LinkError, Linker, Provider, is_stub};
-pub use sources::{Sources, entry_module, math_module, parse_wgsl, shared_module};
+pub use sources::{Sources, entry_module, math_module, number_module, parse_wgsl, shared_module};

@@ -4,6 +4,8 @@ use std::sync::OnceLock;
 
 use naga::Module;
 
+use crate::lower::Format;
+
 /// Functions on numbers, as one text.
 const MATH: &str = concat!(
     include_str!("../../shaders/math/bits.wgsl"),
@@ -20,6 +22,34 @@ const MATH: &str = concat!(
     include_str!("../../shaders/math/slope.wgsl"),
     include_str!("../../shaders/math/polygamma.wgsl"),
 );
+
+/// Functions on wide numbers, in terms of the arithmetic of a format, as one text.
+macro_rules! wide {
+    ($format:literal) => {
+        concat!(
+            include_str!(concat!("../../shaders/wide/", $format, ".wgsl")),
+            include_str!("../../shaders/wide/uniforms.wgsl"),
+            include_str!("../../shaders/wide/real.wgsl"),
+            include_str!("../../shaders/wide/trigonometry.wgsl"),
+            include_str!("../../shaders/wide/power.wgsl"),
+            include_str!("../../shaders/wide/gamma.wgsl"),
+            include_str!("../../shaders/wide/complex.wgsl"),
+            include_str!("../../shaders/wide/complex_waves.wgsl"),
+            include_str!("../../shaders/wide/complex_gamma.wgsl"),
+            include_str!("../../shaders/wide/complex_power.wgsl"),
+            include_str!("../../shaders/wide/pairs.wgsl"),
+            include_str!("../../shaders/wide/hash.wgsl"),
+            include_str!("../../shaders/wide/slope.wgsl"),
+            include_str!("../../shaders/wide/polygamma.wgsl"),
+        )
+    };
+}
+
+/// Functions on pairs of single-precision numbers.
+const PAIR: &str = wide!("pair");
+
+/// Functions on double-precision numbers.
+const DOUBLE: &str = wide!("double");
 
 /// Functions that scenes draw with, as one text.
 const SHARED: &str = concat!(
@@ -40,7 +70,7 @@ pub struct Sources {
     pub entry: &'static Module,
     /// Drawing.
     pub shared: &'static Module,
-    /// Numbers.
+    /// Numbers, in the format of the tier.
     pub math: &'static Module,
 }
 
@@ -65,20 +95,31 @@ pub fn shared_module() -> &'static Module {
     MODULE.get_or_init(|| parse_wgsl(SHARED).0)
 }
 
-/// The library of functions on numbers.
+/// The library of functions on numbers of a format.
+pub fn number_module(format: Format) -> &'static Module {
+    static PAIRS: OnceLock<Module> = OnceLock::new();
+    static DOUBLES: OnceLock<Module> = OnceLock::new();
+    match format {
+        Format::Single => math_module(),
+        Format::Pair => PAIRS.get_or_init(|| parse_wgsl(PAIR).0),
+        Format::Double => DOUBLES.get_or_init(|| parse_wgsl(DOUBLE).0),
+    }
+}
+
+/// The library of functions on numbers of single precision.
 pub fn math_module() -> &'static Module {
     static MODULE: OnceLock<Module> = OnceLock::new();
     MODULE.get_or_init(|| parse_wgsl(MATH).0)
 }
 
 impl Sources {
-    /// All of them.
+    /// All of them, with the numbers of a format.
     #[must_use]
-    pub fn get() -> Self {
+    pub fn get(format: Format) -> Self {
         Self {
             entry: entry_module(),
             shared: shared_module(),
-            math: math_module(),
+            math: number_module(format),
         }
     }
 }
@@ -88,7 +129,13 @@ mod tests {
 
     #[test]
     fn every_text_parses() {
-        for (name, text) in [("math", MATH), ("shared", SHARED), ("entry", ENTRY)] {
+        for (name, text) in [
+            ("math", MATH),
+            ("pair", PAIR),
+            ("double", DOUBLE),
+            ("shared", SHARED),
+            ("entry", ENTRY),
+        ] {
             assert_eq!(parse_wgsl(text).1, None, "{name}");
         }
     }

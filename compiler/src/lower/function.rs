@@ -1,14 +1,11 @@
 //! Lowering an expression graph to a naga function.
 
-use naga::{
-    BinaryOperator, Expression, Function, GlobalVariable, Handle, MathFunction, Type, TypeInner,
-    VectorSize,
-};
+use naga::{BinaryOperator, Expression, Function, GlobalVariable, Handle, MathFunction, Type};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::body::Body;
-use super::{LowerError, NagaTypes, Precision};
+use super::{Format, LowerError, NagaTypes, NumberTypes, Precision};
 use crate::ir::{Graph, Id, Node, Op, Prim, Schedule, Ty, expand_powers, merge_loops};
 use crate::link::{LinkError, Linker, Provider};
 use crate::table::{self, Gpu};
@@ -22,6 +19,10 @@ pub enum Argument {
     Component(u32, u32),
     /// Two elements of the argument as real and imaginary part.
     Pair(u32, u32, u32),
+    /// A component of the argument, a vector from the centre of the view, as a world coordinate.
+    Offset(u32, u32),
+    /// The whole argument, a vector from the centre of the view, as a complex number of the world.
+    OffsetPoint(u32),
 }
 
 /// Where parameters, clock and footprint come from.
@@ -31,9 +32,11 @@ pub enum Leaves {
     Uniforms {
         /// `array<vec4<f32>, 16>`
         params: Handle<GlobalVariable>,
-        /// A structure with members `time` and `pixel`.
+        /// A structure with members `time` and `pixel`, and `center` where inputs are offsets.
         clock: Handle<GlobalVariable>,
     },
+    /// The uniform `wide` of the wide libraries, where each number is two words.
+    Words(Handle<GlobalVariable>),
     /// Further arguments of the function, found by their names.
     Arguments {
         /// Index of the argument of the first parameter; the k-th parameter is the k-th after it.
@@ -73,6 +76,8 @@ pub struct Interface {
     pub output: Output,
     /// Which forms of functions are called.
     pub precision: Precision,
+    /// Whether arguments and results are numbers of the tier; else they are single precision.
+    pub wide: bool,
 }
 
 /// Every value deeper than this below the last named one is given a name, because text writers recurse.
@@ -92,9 +97,13 @@ pub fn lower(
     let (graph, roots) = expand_powers(&graph, &roots);
     let graph = graph.as_ref();
     let types = NagaTypes::insert(&mut linker.out.types);
+    let format = interface.precision.format();
     let mut lowering = Lowering {
         graph,
         types,
+        format,
+        numbers: NumberTypes::insert(&mut linker.out.types, format),
+        wide: interface.wide,
         body: Body::new(interface.declaration),
         inputs: &interface.inputs,
         leaves: interface.leaves,
@@ -114,11 +123,15 @@ pub fn lower(
 pub(super) struct Lowering<'g, 'l, 's> {
     pub(super) graph: &'g Graph,
     pub(super) types: NagaTypes,
+    pub(super) format: Format,
+    pub(super) numbers: NumberTypes,
+    /// Whether arguments and results are in the format.
+    pub(super) wide: bool,
     pub(super) body: Body,
-    inputs: &'g [Argument],
-    leaves: Leaves,
+    pub(super) inputs: &'g [Argument],
+    pub(super) leaves: Leaves,
     precision: Precision,
-    linker: &'l mut Linker<'s>,
+    pub(super) linker: &'l mut Linker<'s>,
     live: Vec<bool>,
     /// Results of functions that are computed in pairs, by pair function and operand.
     pub(super) pairs: FxHashMap<(&'static str, Id), Handle<Expression>>,
@@ -151,9 +164,9 @@ impl Lowering<'_, '_, '_> {
         for (id, node) in self.graph.ids().zip(self.graph.nodes()) {
             if let Op::Const(bits) = node.op
                 && self.live[id.index()]
-                && let Some(value) = finite(f64::from_bits(bits))
+                && let Some(value) = self.constant(f64::from_bits(bits))
             {
-                self.values[id.index()] = Some(self.body.literal(value));
+                self.values[id.index()] = Some(value);
             }
         }
     }
@@ -221,7 +234,7 @@ impl Lowering<'_, '_, '_> {
         self.values[id.index()].ok_or(LowerError::NoForm("an operand that was not lowered"))
     }
 
-    fn argument(&self, k: u32) -> Result<Handle<Expression>, LowerError> {
+    pub(super) fn argument(&self, k: u32) -> Result<Handle<Expression>, LowerError> {
         // arguments are the first expressions of the body
         let found = self.body.function.expressions.iter().nth(k as usize);
         found
@@ -235,7 +248,7 @@ impl Lowering<'_, '_, '_> {
             Op::Truth(value) => Ok(self
                 .body
                 .declare(Expression::Literal(naga::Literal::Bool(value)))),
-            Op::Input(k) => self.input(k),
+            Op::Input(k) => self.input(k, node.ty),
             Op::Param(k) => self.param(k),
             Op::Time => self.clock("time"),
             Op::Pixel => self.clock("pixel"),
@@ -248,7 +261,7 @@ impl Lowering<'_, '_, '_> {
 
     /// Infinities and NaN, which shading languages have no literals for.
     fn special(&mut self, value: f64) -> Result<Handle<Expression>, LowerError> {
-        let seed = self.body.literal(0.0);
+        let seed = self.constant(0.0).ok_or(LowerError::NoForm("a zero"))?;
         if value.is_nan() {
             return self.library("make_nan", vec![seed]);
         }
@@ -258,63 +271,6 @@ impl Lowering<'_, '_, '_> {
         } else {
             self.unary(naga::UnaryOperator::Negate, infinity)
         })
-    }
-
-    fn input(&mut self, k: u16) -> Result<Handle<Expression>, LowerError> {
-        let place = self.inputs.get(usize::from(k)).copied();
-        match place.ok_or(LowerError::NoForm("an input"))? {
-            Argument::Whole(a) => self.argument(a),
-            Argument::Component(a, index) => {
-                let base = self.argument(a)?;
-                Ok(self.body.emit(Expression::AccessIndex { base, index }))
-            }
-            Argument::Pair(a, re, im) => {
-                let base = self.argument(a)?;
-                let re = self.body.emit(Expression::AccessIndex { base, index: re });
-                let im = self.body.emit(Expression::AccessIndex { base, index: im });
-                Ok(self.compose(vec![re, im]))
-            }
-        }
-    }
-
-    fn param(&mut self, k: u16) -> Result<Handle<Expression>, LowerError> {
-        match self.leaves {
-            Leaves::Arguments { params, .. } => self.argument(params + u32::from(k)),
-            Leaves::Uniforms { params, .. } => {
-                let base = self.body.declare(Expression::GlobalVariable(params));
-                let base = self.body.emit(Expression::AccessIndex {
-                    base,
-                    index: u32::from(k / 4),
-                });
-                let pointer = self.body.emit(Expression::AccessIndex {
-                    base,
-                    index: u32::from(k % 4),
-                });
-                Ok(self.body.emit(Expression::Load { pointer }))
-            }
-        }
-    }
-
-    fn clock(&mut self, member: &str) -> Result<Handle<Expression>, LowerError> {
-        match self.leaves {
-            Leaves::Arguments { time, pixel, .. } => {
-                self.argument(if member == "time" { time } else { pixel })
-            }
-            Leaves::Uniforms { clock, .. } => {
-                let ty = self.linker.out.global_variables[clock].ty;
-                let TypeInner::Struct { members, .. } = &self.linker.out.types[ty].inner else {
-                    return Err(LowerError::NoForm("the clock"));
-                };
-                let found = members
-                    .iter()
-                    .position(|m| m.name.as_deref() == Some(member));
-                let index = found.and_then(|i| u32::try_from(i).ok());
-                let index = index.ok_or(LowerError::NoForm("the clock"))?;
-                let base = self.body.declare(Expression::GlobalVariable(clock));
-                let pointer = self.body.emit(Expression::AccessIndex { base, index });
-                Ok(self.body.emit(Expression::Load { pointer }))
-            }
-        }
     }
 
     pub(super) fn library(
@@ -349,9 +305,9 @@ impl Lowering<'_, '_, '_> {
             args[0] = self.library("rounded", vec![args[0]])?;
         }
         match table::row(prim).gpu {
-            Gpu::Binary(op) => Ok(self.binary(op, args[0], args[1])),
+            Gpu::Binary(op) => self.operator(op, args[0], args[1]),
             Gpu::Unary(op) => Ok(self.unary(op, args[0])),
-            Gpu::Builtin(fun) => Ok(self.math(fun, &args)),
+            Gpu::Builtin(fun) => self.builtin(fun, &args),
             Gpu::Library(_, Some(fun)) if self.precision == Precision::Fast => {
                 Ok(self.math(fun, &args))
             }
@@ -407,14 +363,15 @@ impl Lowering<'_, '_, '_> {
                 both
             }
         };
-        if !complex {
+        // the wide libraries give a structure of both
+        if !complex || self.format.is_wide() {
             return Ok(Some(self.part(both, pair.place)));
         }
         let (re, im) = (
             self.part(both, 2 * pair.place),
             self.part(both, 2 * pair.place + 1),
         );
-        Ok(Some(self.compose(vec![re, im])))
+        Ok(Some(self.complex(re, im)))
     }
 
     fn apply_complex(
@@ -429,38 +386,37 @@ impl Lowering<'_, '_, '_> {
             .map(|&a| self.graph.ty(a) == Ty::Complex)
             .collect();
         match (prim, args) {
-            (Prim::Complex, &[re, im]) => Ok(self.compose(vec![re, im])),
+            (Prim::Complex, &[re, im]) => Ok(self.complex(re, im)),
             (Prim::Re, &[z]) => Ok(self.part(z, 0)),
             (Prim::Im, &[z]) => Ok(self.part(z, 1)),
             (Prim::Conj, &[z]) => {
                 let (re, im) = (self.part(z, 0), self.part(z, 1));
                 let im = self.unary(naga::UnaryOperator::Negate, im);
-                Ok(self.compose(vec![re, im]))
+                Ok(self.complex(re, im))
             }
-            (Prim::Neg, &[z]) => Ok(self.unary(naga::UnaryOperator::Negate, z)),
-            (Prim::Select, _) => Ok(self.select(args)),
-            (Prim::Equal | Prim::NotEqual, &[a, b]) => Ok(self.equal_parts(prim, a, b)),
+            (Prim::Neg, &[z]) => Ok(self.complex_negated(z)),
+            (Prim::Select, _) => self.complex_select(args),
+            (Prim::Equal | Prim::NotEqual, &[a, b]) => self.equal_parts(prim, a, b),
             (Prim::Add | Prim::Sub, &[a, b]) => {
-                Ok(self.sum(prim, (a, is_complex[0]), (b, is_complex[1])))
+                self.sum(prim, (a, is_complex[0]), (b, is_complex[1]))
             }
             // a square has no cancelling component, a product may
             (Prim::Mul, &[a, b]) if a == b => self.library("complex_square", vec![a]),
-            (Prim::Mul, &[a, b]) if !(is_complex[0] && is_complex[1]) => {
-                Ok(self.binary(BinaryOperator::Multiply, a, b))
+            (Prim::Mul, &[a, b]) if !is_complex[0] => {
+                self.complex_scaled(BinaryOperator::Multiply, b, a)
+            }
+            (Prim::Mul, &[a, b]) if !is_complex[1] => {
+                self.complex_scaled(BinaryOperator::Multiply, a, b)
             }
             (Prim::Div, &[a, b]) if !is_complex[1] => {
-                let b = self.body.emit(Expression::Splat {
-                    size: VectorSize::Bi,
-                    value: b,
-                });
-                Ok(self.binary(BinaryOperator::Divide, a, b))
+                self.complex_scaled(BinaryOperator::Divide, a, b)
             }
             (Prim::Div, &[a, b]) if !is_complex[0] => {
                 let inverse = self.library("complex_inverse", vec![b])?;
                 if self.graph.as_real(node.args[0]) == Some(1.0) {
                     return Ok(inverse);
                 }
-                Ok(self.binary(BinaryOperator::Multiply, a, inverse))
+                self.complex_scaled(BinaryOperator::Multiply, inverse, a)
             }
             (Prim::PowInt(n), &[z]) => {
                 let n = self.integer(n);
@@ -486,21 +442,21 @@ impl Lowering<'_, '_, '_> {
         prim: Prim,
         (a, a_complex): (Handle<Expression>, bool),
         (b, b_complex): (Handle<Expression>, bool),
-    ) -> Handle<Expression> {
+    ) -> Result<Handle<Expression>, LowerError> {
         let op = if prim == Prim::Add {
             BinaryOperator::Add
         } else {
             BinaryOperator::Subtract
         };
         if a_complex && b_complex {
-            return self.binary(op, a, b);
+            return self.complex_sum(op, a, b);
         }
         let (re, im) = if a_complex {
             let (re, im) = (self.part(a, 0), self.part(a, 1));
-            (self.binary(op, re, b), im)
+            (self.operator(op, re, b)?, im)
         } else {
             let (re, im) = (self.part(b, 0), self.part(b, 1));
-            let re = self.binary(op, a, re);
+            let re = self.operator(op, a, re)?;
             let im = if prim == Prim::Add {
                 im
             } else {
@@ -508,7 +464,7 @@ impl Lowering<'_, '_, '_> {
             };
             (re, im)
         };
-        self.compose(vec![re, im])
+        Ok(self.complex(re, im))
     }
 
     fn equal_parts(
@@ -516,28 +472,22 @@ impl Lowering<'_, '_, '_> {
         prim: Prim,
         a: Handle<Expression>,
         b: Handle<Expression>,
-    ) -> Handle<Expression> {
+    ) -> Result<Handle<Expression>, LowerError> {
         let (each, join) = if prim == Prim::Equal {
             (BinaryOperator::Equal, BinaryOperator::LogicalAnd)
         } else {
             (BinaryOperator::NotEqual, BinaryOperator::LogicalOr)
         };
-        let parts = [0, 1].map(|k| {
+        let mut parts = [a; 2];
+        for (k, part) in (0..).zip(&mut parts) {
             let (a, b) = (self.part(a, k), self.part(b, k));
-            self.binary(each, a, b)
-        });
-        self.binary(join, parts[0], parts[1])
+            *part = self.operator(each, a, b)?;
+        }
+        Ok(self.binary(join, parts[0], parts[1]))
     }
 
-    fn part(&mut self, base: Handle<Expression>, index: u32) -> Handle<Expression> {
+    pub(super) fn part(&mut self, base: Handle<Expression>, index: u32) -> Handle<Expression> {
         self.body.emit(Expression::AccessIndex { base, index })
-    }
-
-    fn compose(&mut self, components: Vec<Handle<Expression>>) -> Handle<Expression> {
-        self.body.emit(Expression::Compose {
-            ty: self.types.vec2,
-            components,
-        })
     }
 
     pub(super) fn unary(
@@ -572,7 +522,7 @@ impl Lowering<'_, '_, '_> {
         })
     }
 
-    fn select(&mut self, args: &[Handle<Expression>]) -> Handle<Expression> {
+    pub(super) fn select(&mut self, args: &[Handle<Expression>]) -> Handle<Expression> {
         self.body.emit(Expression::Select {
             condition: args[0],
             accept: args[1],
@@ -583,15 +533,9 @@ impl Lowering<'_, '_, '_> {
     fn output(&mut self, output: &Output, roots: &[Id]) -> Result<Handle<Expression>, LowerError> {
         let root = |k: &usize| roots.get(*k).copied().ok_or(LowerError::NoForm("a result"));
         Ok(match output {
-            Output::Node(k) => self.value(root(k)?)?,
-            Output::Re(k) => {
-                let z = self.value(root(k)?)?;
-                self.part(z, 0)
-            }
-            Output::Im(k) => {
-                let z = self.value(root(k)?)?;
-                self.part(z, 1)
-            }
+            Output::Node(k) => self.returned(root(k)?)?,
+            Output::Re(k) => self.returned_part(root(k)?, 0)?,
+            Output::Im(k) => self.returned_part(root(k)?, 1)?,
             Output::Zero(ty) => self.body.declare(Expression::ZeroValue(*ty)),
             Output::Compose(ty, parts) => {
                 let components = parts
@@ -605,16 +549,30 @@ impl Lowering<'_, '_, '_> {
             }
         })
     }
-}
 
-/// The value as a finite `f32`, or `None` where it is NaN or beyond its range.
-fn finite(value: f64) -> Option<f32> {
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "rounding to the shader's format is meant"
-    )]
-    let value = value as f32;
-    value.is_finite().then_some(value)
+    /// A result, in the format of the function's results.
+    fn returned(&mut self, root: Id) -> Result<Handle<Expression>, LowerError> {
+        let value = self.value(root)?;
+        match self.graph.ty(root) {
+            Ty::Real if self.converts() => self.narrowed(value),
+            Ty::Complex if self.converts() => {
+                let components = vec![self.returned_part(root, 0)?, self.returned_part(root, 1)?];
+                let ty = self.types.vec2;
+                Ok(self.body.emit(Expression::Compose { ty, components }))
+            }
+            _ => Ok(value),
+        }
+    }
+
+    fn returned_part(&mut self, root: Id, index: u32) -> Result<Handle<Expression>, LowerError> {
+        let z = self.value(root)?;
+        let part = self.part(z, index);
+        if self.converts() {
+            self.narrowed(part)
+        } else {
+            Ok(part)
+        }
+    }
 }
 
 fn missing_form(name: &str) -> &'static str {

@@ -1,25 +1,59 @@
 //! From the IR to a naga function.
 
 mod body;
+mod format;
 mod function;
 mod identifier;
+mod leaves;
+mod numbers;
 mod repeat;
 mod types;
 
+pub use format::Format;
 pub use function::{Argument, Interface, Leaves, Output, lower};
 pub use identifier::identifier;
-pub use types::NagaTypes;
+pub use types::{NagaTypes, NumberTypes};
 
 use crate::link::LinkError;
 
 /// What precision the shader computes in: which form of each function is called.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Precision {
-    /// The built-ins of the graphics API where there is one.
+    /// Single precision, and the built-ins of the graphics API where there is one.
     Fast,
-    /// The functions of our math library.
+    /// Single precision, and the functions of our math library.
     #[default]
     Accurate,
+    /// Pairs of single-precision numbers, about 48 bits.
+    Extended,
+    /// Native double precision, on adapters that have it.
+    Double,
+}
+
+impl Precision {
+    /// Every tier, from the cheapest to the most exact.
+    pub const ALL: [Self; 4] = [Self::Fast, Self::Accurate, Self::Extended, Self::Double];
+
+    /// How the tier holds a number.
+    #[must_use]
+    pub fn format(self) -> Format {
+        match self {
+            Self::Fast | Self::Accurate => Format::Single,
+            Self::Extended => Format::Pair,
+            Self::Double => Format::Double,
+        }
+    }
+
+    /// Its name on the command line and in programs.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Accurate => "accurate",
+            Self::Extended => "extended",
+            Self::Double => "double",
+        }
+    }
 }
 
 /// A function could not be lowered.

@@ -19,9 +19,9 @@ impl Lowering<'_, '_, '_> {
         let mut variables = Vec::new();
         for state in &it.states {
             let ty = match self.graph.ty(state.leaf) {
-                Ty::Complex => self.types.vec2,
+                Ty::Complex => self.numbers.complex,
                 Ty::Bool => self.types.truth,
-                Ty::Real | Ty::Loop => self.types.real,
+                Ty::Real | Ty::Loop => self.numbers.real,
             };
             let variable = self.body.variable(self.state_name(state.leaf), ty);
             let init = self.value(state.init)?;
@@ -36,7 +36,8 @@ impl Lowering<'_, '_, '_> {
         let ends = self.unary(UnaryOperator::LogicalNot, goes_on);
         self.leave_if(ends);
         if let Some(counter) = plan.counter {
-            self.keep(counter, now);
+            let steps = self.widened(now)?;
+            self.keep(counter, steps);
         }
         for (state, &variable) in it.states.iter().zip(&variables) {
             let value = self.body.load(variable);
@@ -83,7 +84,9 @@ impl Lowering<'_, '_, '_> {
             return Ok(self.body.literal(count as f32));
         }
         let count = self.value(it.count)?;
-        let floor = self.math(MathFunction::Floor, &[count]);
+        // rounded down before it is narrowed, which could round up
+        let floor = self.builtin(MathFunction::Floor, &[count])?;
+        let floor = self.narrowed(floor)?;
         #[allow(
             clippy::cast_precision_loss,
             reason = "the limit is at most 100,000, which is exact"

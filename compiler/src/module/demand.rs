@@ -48,16 +48,24 @@ impl Provider for Demand<'_> {
         let interface = Interface {
             declaration: stub.clone(),
             inputs: answer.inputs,
-            leaves: uniforms(linker, "view")?,
+            leaves: uniforms(linker, "view", self.precision)?,
             output: answer.output,
             precision: self.precision,
+            wide: false,
         };
         lower(&answer.graph, &answer.roots, interface, linker).map(Some)
     }
 }
 
 /// The uniforms that parameters and the clock are read from.
-pub fn uniforms(linker: &mut Linker, clock: &str) -> Result<Leaves, LowerError> {
+pub fn uniforms(
+    linker: &mut Linker,
+    clock: &str,
+    precision: Precision,
+) -> Result<Leaves, LowerError> {
+    if precision.format().is_wide() {
+        return Ok(Leaves::Words(linker.global("wide")?));
+    }
     let params: Handle<GlobalVariable> = linker.global("params")?;
     let clock = linker.global(clock)?;
     Ok(Leaves::Uniforms { params, clock })
@@ -68,15 +76,22 @@ impl Demand<'_> {
         self.formula.graph.compacted(&self.formula.value)
     }
 
-    /// The stub's one argument is a point: a complex input is all of it, real inputs are its components.
+    /// The stub's one argument is a point of space, or of the plane as seen from the view's centre: a complex input is
+    /// all of it, real inputs are its components.
     fn point_inputs(&self) -> Vec<Argument> {
         let scalars = self.formula.scalars();
         if scalars == [Ty::Complex] {
-            return vec![Argument::Whole(0)];
+            return vec![Argument::OffsetPoint(0)];
         }
-        (0..scalars.len())
-            .map(|k| Argument::Component(0, u32::try_from(k).unwrap_or(0)))
-            .collect()
+        let place = |k: usize| {
+            let k = u32::try_from(k).unwrap_or(0);
+            if self.dimension() == 3 {
+                Argument::Component(0, k)
+            } else {
+                Argument::Offset(0, k)
+            }
+        };
+        (0..scalars.len()).map(place).collect()
     }
 
     fn leaves(&self, graph: &mut Graph) -> Vec<Id> {

@@ -16,7 +16,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use pullback_grammar::Diagnostic;
 
 use crate::formula::Formula;
-use crate::lower::LowerError;
+use crate::lower::{Format, LowerError, Precision};
 
 /// Why a module could not be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,8 +73,14 @@ impl ModuleError {
 }
 
 /// Validates a finished module.
-pub(crate) fn validate(module: &Module) -> Result<ModuleInfo, ModuleError> {
-    Validator::new(ValidationFlags::all(), Capabilities::default())
+pub(crate) fn validate(module: &Module, precision: Precision) -> Result<ModuleInfo, ModuleError> {
+    let capabilities = match precision.format() {
+        Format::Single | Format::Pair => Capabilities::default(),
+        Format::Double => {
+            Capabilities::default() | Capabilities::FLOAT64 | Capabilities::SHADER_INT64
+        }
+    };
+    Validator::new(ValidationFlags::all(), capabilities)
         .validate(module)
         .map_err(|error| {
             use std::error::Error as _;

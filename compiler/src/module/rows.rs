@@ -11,8 +11,10 @@ use super::{ModuleError, validate};
 use crate::eval::{Leaves, Tape};
 use crate::formula::Formula;
 use crate::ir::Ty;
-use crate::link::{Linker, Provider, math_module, parse_wgsl};
-use crate::lower::{Argument, Interface, LowerError, Output, Precision, lower};
+use crate::link::{Linker, Provider, number_module, parse_wgsl};
+use crate::lower::{
+    Argument, Format, Interface, LowerError, NumberTypes, Output, Precision, lower,
+};
 use crate::reference::complex::complex;
 use crate::table::Number;
 
@@ -24,9 +26,27 @@ pub const MAX_RESULTS: usize = 40;
 /// The text of the template that evaluates rows.
 pub const TEMPLATE: &str = include_str!("../../shaders/eval.wgsl");
 
-fn template() -> &'static Module {
-    static MODULE: OnceLock<Module> = OnceLock::new();
-    MODULE.get_or_init(|| parse_wgsl(TEMPLATE).0)
+/// The text of the template that evaluates rows of pairs.
+const PAIRS: &str = concat!(
+    "alias real = vec2f;\n",
+    include_str!("../../shaders/wide/eval.wgsl")
+);
+
+/// The text of the template that evaluates rows of doubles.
+const DOUBLES: &str = concat!(
+    "alias real = f64;\n",
+    include_str!("../../shaders/wide/eval.wgsl")
+);
+
+/// The template for a format, parsed once per process.
+fn template(format: Format) -> &'static Module {
+    static MODULES: [OnceLock<Module>; 3] = [const { OnceLock::new() }; 3];
+    let (place, text) = match format {
+        Format::Single => (0, TEMPLATE),
+        Format::Pair => (1, PAIRS),
+        Format::Double => (2, DOUBLES),
+    };
+    MODULES[place].get_or_init(|| parse_wgsl(text).0)
 }
 
 /// A validated module that evaluates rows; its entry point is `compute_main`.
@@ -40,6 +60,8 @@ pub struct EvalModule {
     pub inputs: Vec<String>,
     /// Names of the columns of a result.
     pub outputs: Vec<String>,
+    /// How rows and results are held: one `f32` a number, or two words in the wide formats.
+    pub format: Format,
 }
 
 impl EvalModule {
@@ -55,7 +77,8 @@ impl EvalModule {
                 "at most {MAX_COLUMNS} columns in and {MAX_RESULTS} columns out"
             ))));
         }
-        let mut linker = Linker::new(vec![template(), math_module()]);
+        let format = precision.format();
+        let mut linker = Linker::new(vec![template(format), number_module(format)]);
         let outputs = evaluation.names.clone();
         let mut provider = Rows {
             formula,
@@ -65,12 +88,13 @@ impl EvalModule {
         linker.link_entry_points(0, &mut provider)?;
         let mut module = linker.out;
         naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
-        let info = validate(&module)?;
+        let info = validate(&module, precision)?;
         Ok(Self {
             module,
             info,
             inputs,
             outputs,
+            format,
         })
     }
 }
@@ -92,15 +116,16 @@ impl Provider for Rows<'_> {
             return Ok(None);
         }
         let result = stub.result.as_ref().ok_or(LowerError::NoForm("rows"))?.ty;
-        let types = crate::lower::NagaTypes::insert(&mut linker.out.types);
+        let numbers = NumberTypes::insert(&mut linker.out.types, self.precision.format());
         let mut parts = self.evaluation.columns.clone();
-        parts.resize(MAX_RESULTS, Output::Zero(types.real));
+        parts.resize(MAX_RESULTS, Output::Zero(numbers.real));
         let interface = Interface {
             declaration: stub.clone(),
             inputs: row_inputs(self.formula),
-            leaves: uniforms(linker, "batch")?,
+            leaves: uniforms(linker, "batch", self.precision)?,
             output: Output::Compose(result, parts),
             precision: self.precision,
+            wide: true,
         };
         lower(
             &self.evaluation.graph,

@@ -7,7 +7,7 @@ use super::demand::Demand;
 use super::{ModuleError, validate};
 use crate::formula::Formula;
 use crate::link::{Linker, Sources};
-use crate::lower::Precision;
+use crate::lower::{Format, Precision};
 use crate::program::{Picture, SettingValue};
 use crate::scene::Scene;
 
@@ -22,6 +22,8 @@ pub struct SceneModule {
     layout: Vec<Member>,
     /// Size of the settings' uniform in bytes, a multiple of 16, never 0.
     pub settings_size: usize,
+    /// How the formula's numbers are held.
+    pub format: Format,
 }
 
 #[derive(Clone, Debug)]
@@ -41,13 +43,14 @@ impl SceneModule {
     pub fn new(picture: &Picture, precision: Precision) -> Result<Self, ModuleError> {
         let mut module = Self::link(picture, precision)?;
         naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
-        let info = validate(&module)?;
+        let info = validate(&module, precision)?;
         let (layout, settings_size) = layout(picture.scene);
         Ok(Self {
             module,
             info,
             layout,
             settings_size,
+            format: precision.format(),
         })
     }
 
@@ -68,7 +71,7 @@ impl SceneModule {
         formula: &Formula,
         precision: Precision,
     ) -> Result<Module, ModuleError> {
-        let sources = Sources::get();
+        let sources = Sources::get(precision.format());
         let mut linker = Linker::new(vec![template, sources.entry, sources.shared, sources.math]);
         let mut demand = Demand { formula, precision };
         linker.link_entry_points(1, &mut demand)?;

@@ -10,7 +10,7 @@ mod unused;
 
 use crate::check::{Symbols, check_names, is_builtin_function};
 use crate::formula::Formula;
-use crate::scene::{Scene, SettingSpec};
+use crate::scene::{Scene, SettingKind, SettingSpec};
 use checker::Checker;
 pub use function::compile_function;
 use glam::DVec3;
@@ -39,6 +39,23 @@ pub struct SettingValue {
     pub spec: &'static SettingSpec,
     /// Its components; for a choice, the place of the word.
     pub value: DVec3,
+}
+
+impl SettingValue {
+    /// The word of a choice.
+    #[must_use]
+    pub fn word(&self) -> Option<&'static str> {
+        let SettingKind::Choice(words) = self.spec.kind else {
+            return None;
+        };
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a place in a short list"
+        )]
+        let place = self.value.x as usize;
+        words.get(place).copied()
+    }
 }
 
 /// One picture: a scene, its settings, and the formula that it shows.

@@ -63,5 +63,6 @@ pub const SCENE: Scene = Scene {
             [0.010, 0.012, 0.02],
             "colour of the phase lines, linear rgb",
         ),
+        SettingSpec::precision(),
     ],
 };

@@ -50,5 +50,6 @@ pub const SCENE: Scene = Scene {
             [0.010, 0.012, 0.02],
             "colour of all lines, linear rgb",
         ),
+        SettingSpec::precision(),
     ],
 };

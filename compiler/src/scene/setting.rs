@@ -133,6 +133,17 @@ impl SettingSpec {
         )
     }
 
+    /// The tier that the formula is computed in; `auto` is left to the host.
+    #[must_use]
+    pub const fn precision() -> Self {
+        Self::choice(
+            "precision",
+            &["accurate", "fast", "extended", "double", "auto"],
+            0.0,
+            "how numbers are computed; --precision goes before it",
+        )
+    }
+
     /// Says what is wrong with a value, if anything.
     ///
     /// # Errors

@@ -117,5 +117,6 @@ pub const SCENE: Scene = Scene {
             (0.0, 1.0),
             "darkness of the shadow on the ground; 0: not computed",
         ),
+        SettingSpec::precision(),
     ],
 };

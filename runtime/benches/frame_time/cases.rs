@@ -3,9 +3,11 @@
 use naga::Module;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use pullback_compiler::link::{Linker, Provider, Sources, parse_wgsl};
-use pullback_compiler::lower::{LowerError, Precision};
+use pullback_compiler::lower::{Format, LowerError, Precision};
 use pullback_compiler::scene::Space;
 use pullback_compiler::{Picture, SceneModule, compile};
+
+use crate::stage::Uniforms;
 
 /// One formula of the gallery with its twin.
 pub struct Case {
@@ -75,10 +77,7 @@ pub const TWIN: &str = "twin";
 pub struct Prepared {
     pub scene: &'static str,
     pub shaders: Vec<Shader>,
-    pub settings: Vec<u8>,
-    pub params: [f32; 64],
-    pub center: [f32; 2],
-    pub height: f32,
+    pub uniforms: Uniforms,
 }
 
 pub struct Shader {
@@ -112,23 +111,17 @@ impl Case {
                 module,
             });
         }
-        let mut params = [0.0; 64];
-        for (slot, param) in params.iter_mut().zip(program.params()) {
-            *slot = param.default as f32;
-        }
         let [x, y, _] = picture.setting("center").unwrap_or_default().to_array();
         let plane = picture.scene.space != Space::Space;
         Ok(Prepared {
             scene: picture.scene.name,
             shaders,
-            settings,
-            params,
-            center: if plane {
-                [x as f32, y as f32]
-            } else {
-                [0.0; 2]
+            uniforms: Uniforms {
+                settings,
+                params: program.params().iter().map(|p| p.default).collect(),
+                center: if plane { [x, y] } else { [0.0; 2] },
+                height: picture.setting("height").map_or(2.0, |h| h.x),
             },
-            height: picture.setting("height").map_or(2.0, |h| h.x as f32),
         })
     }
 }
@@ -155,7 +148,7 @@ fn twin(picture: &Picture, text: &str) -> Result<Module, String> {
         entry,
         shared,
         math,
-    } = Sources::get();
+    } = Sources::get(Format::Single);
     let sources = vec![picture.scene.module(), &by_hand, entry, shared, math];
     let mut linker = Linker::new(sources);
     linker

@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
+use pullback_compiler::lower::Format;
 use pullback_runtime::image_file::{Metadata, write_png};
 use pullback_runtime::{AdapterChoice, Error, Gpu, Pipeline, Size};
 
@@ -118,7 +119,8 @@ fn run(options: &Options) -> Result<(), String> {
     for case in CASES.iter().filter(chosen) {
         eprintln!("{}", case.name);
         let prepared = case.prepare().map_err(|e| format!("{}: {e}", case.name))?;
-        let canvas = Canvas::new(&gpu, &prepared, options.size).map_err(|e| e.to_string())?;
+        let canvas =
+            Canvas::new(&gpu, &prepared.uniforms, options.size).map_err(|e| e.to_string())?;
         clock = canvas.has_clock();
         measure(
             case,
@@ -178,7 +180,7 @@ fn measure(
         let stages: Vec<Stage> = prepared
             .shaders
             .iter()
-            .map(|shader| canvas.stage(&shader.module, pipeline))
+            .map(|shader| canvas.stage(&shader.module, Format::Single, pipeline))
             .collect::<Result<_, _>>()?;
         let drawn: Vec<Vec<u8>> = stages
             .iter()

@@ -7,9 +7,17 @@ use std::time::Instant;
 use naga::Module;
 use pullback_runtime::{Error, Gpu, Pipeline};
 
-use crate::cases::Prepared;
+use pullback_compiler::lower::Format;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// What the uniforms of a picture hold.
+pub struct Uniforms {
+    pub settings: Vec<u8>,
+    pub params: Vec<f64>,
+    pub center: [f64; 2],
+    pub height: f64,
+}
 
 /// What all shaders of a picture share: uniforms and targets.
 pub struct Canvas {
@@ -17,6 +25,8 @@ pub struct Canvas {
     width: u32,
     height: u32,
     uniforms: [wgpu::Buffer; 3],
+    pairs: wgpu::Buffer,
+    doubles: wgpu::Buffer,
     image: wgpu::Buffer,
     target: wgpu::Texture,
     clock: Option<Clock>,
@@ -44,7 +54,7 @@ enum Pass {
 }
 
 impl Canvas {
-    pub fn new(gpu: &Gpu, prepared: &Prepared, [width, height]: [u32; 2]) -> Result<Self, Error> {
+    pub fn new(gpu: &Gpu, given: &Uniforms, [width, height]: [u32; 2]) -> Result<Self, Error> {
         let device = gpu.device();
         let uniform = |bytes: &[u8]| {
             let buffer = device.create_buffer(&wgpu::BufferDescriptor {
@@ -56,20 +66,35 @@ impl Canvas {
             gpu.queue().write_buffer(&buffer, 0, bytes);
             buffer
         };
-        let [x, y] = prepared.center;
+        let [x, y] = given.center.map(|c| c as f32);
+        let pixel = given.height / f64::from(height);
         let floats = |f: [f32; 4]| f.map(f32::to_bits);
         let head = floats([x, y, width as f32, height as f32]);
-        let tile = floats([0.0, 0.0, prepared.height / height as f32, 0.0]);
+        let tile = floats([0.0, 0.0, pixel as f32, 0.0]);
         let view = [head, tile, [1, 0, width, height]].concat();
+        let mut params = [0.0; 64];
+        for (slot, &value) in params.iter_mut().zip(&given.params) {
+            *slot = value as f32;
+        }
+        let wide = |format: Format| {
+            let [x, y] = given.center;
+            let mut numbers = vec![x, y, 0.0, pixel];
+            numbers.extend(&given.params);
+            numbers.resize(4 + 64, 0.0);
+            let words: Vec<[u32; 2]> = numbers.into_iter().map(|n| format.words(n)).collect();
+            uniform(bytemuck::cast_slice(&words))
+        };
         gpu.guarded("allocation", || Self {
             gpu: gpu.clone(),
             width,
             height,
             uniforms: [
                 uniform(bytemuck::cast_slice(&view)),
-                uniform(bytemuck::cast_slice(&prepared.params)),
-                uniform(&prepared.settings),
+                uniform(bytemuck::cast_slice(&params)),
+                uniform(&given.settings),
             ],
+            pairs: wide(Format::Pair),
+            doubles: wide(Format::Double),
             image: device.create_buffer(&wgpu::BufferDescriptor {
                 label: None,
                 size: u64::from(width) * u64::from(height) * 4,
@@ -100,7 +125,12 @@ impl Canvas {
     }
 
     /// Makes a pipeline.
-    pub fn stage(&self, module: &Module, pipeline: Pipeline) -> Result<Stage, Error> {
+    pub fn stage(
+        &self,
+        module: &Module,
+        format: Format,
+        pipeline: Pipeline,
+    ) -> Result<Stage, Error> {
         let device = self.gpu.device();
         let source = wgpu::ShaderSource::Naga(Cow::Owned(module.clone()));
         let start = Instant::now();
@@ -115,7 +145,7 @@ impl Canvas {
             }
         })?;
         let built = start.elapsed().as_secs_f64();
-        let bindings = self.gpu.guarded("binding", || self.bind(&pass))?;
+        let bindings = self.gpu.guarded("binding", || self.bind(&pass, format))?;
         Ok(Stage {
             pass,
             bindings,
@@ -138,7 +168,8 @@ impl Canvas {
             Pipeline::Compute => wgpu::ShaderStages::COMPUTE,
             Pipeline::Fragment => wgpu::ShaderStages::VERTEX_FRAGMENT,
         };
-        let mut entries: Vec<_> = (0..3)
+        let mut entries: Vec<_> = [0, 1, 2, 4]
+            .into_iter()
             .map(|k| entry(k, stages, wgpu::BufferBindingType::Uniform))
             .collect();
         if pipeline == Pipeline::Compute {
@@ -204,17 +235,22 @@ impl Canvas {
             })
     }
 
-    fn bind(&self, pass: &Pass) -> wgpu::BindGroup {
-        let mut buffers: Vec<&wgpu::Buffer> = self.uniforms.iter().collect();
+    fn bind(&self, pass: &Pass, format: Format) -> wgpu::BindGroup {
+        let wide = match format {
+            Format::Single | Format::Pair => &self.pairs,
+            Format::Double => &self.doubles,
+        };
+        let mut buffers: Vec<(u32, &wgpu::Buffer)> = (0..).zip(&self.uniforms).collect();
+        buffers.push((4, wide));
         let pipeline = match pass {
             Pass::Compute(_) => {
-                buffers.push(&self.image);
+                buffers.push((3, &self.image));
                 Pipeline::Compute
             }
             Pass::Fragment(_) => Pipeline::Fragment,
         };
-        let entries: Vec<_> = (0..)
-            .zip(buffers)
+        let entries: Vec<_> = buffers
+            .into_iter()
             .map(|(binding, buffer)| wgpu::BindGroupEntry {
                 binding,
                 resource: buffer.as_entire_binding(),

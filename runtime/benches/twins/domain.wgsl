@@ -41,8 +41,9 @@ fn cpow(a: vec2f, b: vec2f) -> vec2f {
     return cexp(cmul(b, clog(a)));
 }
 
-// f and ∂f/∂z, for holomorphic f
-fn map_jet(z: vec2f) -> Jet {
+// f and ∂f/∂z at the offset from the view's centre, for holomorphic f
+fn map_jet(offset: vec2f) -> Jet {
+    let z = view.center + offset;
     let e = vec2f(view.pixel, 0.0);
     return Jet(f(z), (f(z + e) - f(z - e)) / (2.0 * e.x), vec2f());
 }

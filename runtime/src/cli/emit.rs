@@ -79,9 +79,10 @@ pub(super) fn run(arguments: &EmitArguments, console: &Console) -> Result<(), Fa
         Part::Scene => EmitWhat::Scene,
     };
     let index = source.picture(arguments.which, console)?;
-    let made = source
-        .program
-        .emit(index, what, target, arguments.numbers.into());
+    let precision = arguments
+        .numbers
+        .without_view(&source.program.pictures()[index].settings)?;
+    let made = source.program.emit(index, what, target, precision);
     let code = source.expect(made, console)?;
     let shown = render::name(&path);
     AtomicFile::create(&path)

@@ -6,9 +6,9 @@ use std::io::{self, BufRead, BufReader, BufWriter, Write};
 
 use clap::{Args, ValueEnum};
 use pullback_compiler::{Evaluator, What};
+use pullback_runtime::GpuEvaluator;
 use pullback_runtime::evaluate::Surroundings;
 use pullback_runtime::rows::{self, Number, RowError, RowReader};
-use pullback_runtime::{Gpu, GpuEvaluator};
 
 use super::failure::Failure;
 use super::progress::Progress;
@@ -62,7 +62,7 @@ enum Part {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Place {
-    /// The graphics adapter, in single precision
+    /// The graphics adapter, in the precision of the tier
     Gpu,
     /// The processor, in double precision
     Reference,
@@ -101,14 +101,23 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
             table.run(&mut machine, console)
         }
         Place::Gpu => {
-            let precision = arguments.numbers.into();
+            let settings = &source.program.pictures()[index].settings;
+            let precision = arguments.numbers.without_view(settings)?;
             let module = source.program.eval_module(index, what, precision);
             let module = source.expect(module, console)?;
             let mut table = Table::open(arguments, &module.inputs)?;
-            let gpu = Gpu::open(&arguments.device.adapter)?;
-            console.note(&format!("adapter: {}", gpu.adapter()));
+            let gpu = super::open(&arguments.device, console)?;
+            super::demand(&gpu, precision)?;
+            let evaluator = GpuEvaluator::new(&gpu, &module)?;
+            if module.format.is_wide() {
+                let mut machine = WideOnDevice {
+                    evaluator,
+                    surroundings,
+                };
+                return table.run(&mut machine, console);
+            }
             let mut machine = OnDevice {
-                evaluator: GpuEvaluator::new(&gpu, &module)?,
+                evaluator,
                 surroundings,
             };
             table.run(&mut machine, console)
@@ -173,6 +182,26 @@ impl Machine for OnDevice<'_> {
         Ok(self
             .evaluator
             .eval(self.surroundings, count, rows, results)?)
+    }
+}
+
+struct WideOnDevice<'a> {
+    evaluator: GpuEvaluator,
+    surroundings: Surroundings<'a>,
+}
+
+impl Machine for WideOnDevice<'_> {
+    type Number = f64;
+
+    fn outputs(&self) -> usize {
+        self.evaluator.outputs().len()
+    }
+
+    fn eval(&mut self, count: usize, rows: &[f64], results: &mut Vec<f64>) -> Result<(), Failure> {
+        let surroundings = self.surroundings;
+        Ok(self
+            .evaluator
+            .eval_exactly(surroundings, count, rows, results)?)
     }
 }
 

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use pullback_compiler::lower::Precision;
 use pullback_compiler::scene::{SettingKind, Space};
 use pullback_compiler::{Picture, SettingValue};
+use pullback_runtime::auto::{self, Scenery};
 use pullback_runtime::render::{MAX_SAMPLES, MAX_SIDE};
 use pullback_runtime::{
     Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, fill_in_scale, image_file,
@@ -70,13 +72,10 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         &params,
         arguments.settings.time,
     );
-    let precision = arguments.numbers.into();
-    let scene = source.expect(source.program.scene_module(index, precision), console)?;
-    let bytes = scene.pack_settings(&settings);
-    let frame = Frame {
+    let mut frame = Frame {
         view,
         params: &params,
-        settings: &bytes,
+        settings: &[],
         size: arguments.size,
         samples: arguments.samples,
         time: arguments.settings.time,
@@ -85,9 +84,27 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
             Stage::Fragment => Pipeline::Fragment,
         },
     };
-    let gpu = Gpu::open(&arguments.device.adapter)?;
-    console.note(&format!("adapter: {}", gpu.adapter()));
-    let metadata = metadata(&source, picture, &settings, &frame, &gpu);
+    let gpu = super::open(&arguments.device, console)?;
+    let precision = match arguments.numbers.wanted(&settings) {
+        Some(precision) => precision,
+        None => {
+            let scenery = Scenery {
+                program: &source.program,
+                picture: index,
+                settings: &settings,
+                frame: &frame,
+            };
+            chosen(&gpu, &scenery, &source, console)?
+        }
+    };
+    super::demand(&gpu, precision)?;
+    let scene = source.expect(source.program.scene_module(index, precision), console)?;
+    let bytes = scene.pack_settings(&settings);
+    frame.settings = &bytes;
+    if let Some(warning) = unresolved(picture, &frame, precision) {
+        console.warning(&warning);
+    }
+    let metadata = metadata(&source, picture, &settings, &frame, precision, &gpu);
     let path = arguments
         .output
         .output
@@ -150,12 +167,50 @@ fn view(
     })
 }
 
+/// The tier that `auto` takes; says which and why.
+fn chosen(
+    gpu: &Gpu,
+    scenery: &Scenery,
+    source: &Source,
+    console: &Console,
+) -> Result<Precision, Failure> {
+    let verdict = match auto::choose(gpu, scenery) {
+        Ok(verdict) => verdict,
+        Err(auto::Failure::Device(error)) => return Err(error.into()),
+        Err(auto::Failure::Program(problems)) => return source.expect(Err(problems), console),
+    };
+    console.note(&verdict.to_string());
+    if !verdict.is_true() {
+        console.warning("no precision gives a picture whose errors cannot be seen");
+    }
+    Ok(verdict.precision)
+}
+
+/// What to say where the tier gives neighbouring pixels the same point of the plane.
+fn unresolved(picture: &Picture, frame: &Frame, precision: Precision) -> Option<String> {
+    if picture.scene.space == Space::Space || frame.is_resolved(precision.format()) {
+        return None;
+    }
+    let advice = Precision::ALL
+        .into_iter()
+        .find(|finer| frame.is_resolved(finer.format()))
+        .map_or_else(
+            || "no tier does; move or widen the view".to_owned(),
+            |finer| format!("--precision {} does", finer.name()),
+        );
+    Some(format!(
+        "`{}` does not tell the points of neighbouring pixels apart in this view; {advice}",
+        precision.name()
+    ))
+}
+
 /// How the picture came about, without names of files.
 fn metadata(
     source: &Source,
     picture: &Picture,
     settings: &[SettingValue],
     frame: &Frame,
+    precision: Precision,
     gpu: &Gpu,
 ) -> Metadata {
     let [x, y] = frame.view.center;
@@ -188,6 +243,7 @@ fn metadata(
         ),
         ("Parameters", params.join("; ")),
         ("Settings", settings.join("; ")),
+        ("Precision", precision.name().to_owned()),
         ("Adapter", gpu.adapter().to_string()),
     ])
 }
@@ -199,7 +255,7 @@ pub(super) fn written(setting: &SettingValue) -> String {
         SettingKind::Real | SettingKind::Integer => x.to_string(),
         SettingKind::Vec2 => format!("({x}, {y})"),
         SettingKind::Vec3 => format!("({x}, {y}, {z})"),
-        SettingKind::Choice(words) => (*words.get(x as usize).unwrap_or(&"")).to_owned(),
+        SettingKind::Choice(_) => setting.word().unwrap_or_default().to_owned(),
     }
 }
 

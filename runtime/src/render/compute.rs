@@ -28,7 +28,7 @@ impl ComputeStage {
     ) -> Result<Self, Error> {
         let device = gpu.device();
         let stages = wgpu::ShaderStages::COMPUTE;
-        let [view, params, settings] = uniform_layout(stages);
+        let [view, params, settings, wide] = uniform_layout(stages);
         let image = wgpu::BindGroupLayoutEntry {
             binding: 3,
             visibility: stages,
@@ -43,7 +43,7 @@ impl ComputeStage {
         gpu.guarded("compiling the compute pipeline", || {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some("compute"),
-                entries: &[view, params, settings, image],
+                entries: &[view, params, settings, image, wide],
             });
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some("compute"),
@@ -98,7 +98,7 @@ impl Stage for ComputeStage {
         let device = gpu.device();
         let encoder = gpu.guarded("recording", || {
             let bindings = self.bindings.get_or_insert_with(|| {
-                let [view, params, settings] = uniforms.entries();
+                let [view, params, settings, wide] = uniforms.entries();
                 device.create_bind_group(&wgpu::BindGroupDescriptor {
                     label: Some("compute"),
                     layout: &self.layout,
@@ -110,6 +110,7 @@ impl Stage for ComputeStage {
                             binding: 3,
                             resource: image.as_entire_binding(),
                         },
+                        wide,
                     ],
                 })
             });

@@ -1,0 +1,298 @@
+// Numbers as native f64. Sums, products, quotients and square roots are the adapter's, correctly rounded where it does
+// so; nothing else of its f64 is relied on.
+
+alias real = f64;
+
+struct Complex {
+    re: real,
+    im: real,
+}
+
+/// What sincos and sinhcosh give.
+struct RealPair {
+    first: real,
+    second: real,
+}
+
+struct ComplexPair {
+    first: Complex,
+    second: Complex,
+}
+
+/// Two numbers whose sum is meant, with about twice the precision of one.
+struct Long {
+    hi: real,
+    lo: real,
+}
+
+// exact steps
+
+/// A zero that no compiler can see: an odd square is 1 modulo 8, so bit 2 of it is never set. Xor with it hides where
+/// a value comes from, so that no algebra reaches across.
+fn hidden_zero(seed: f64) -> u64 {
+    let odd = u32(bitcast<u64>(seed) >> 32u) | 1u;
+    return u64((odd * odd) & 4u);
+}
+
+/// v itself, cut off from the expression that gave it.
+fn opaque(v: f64, zero: u64) -> f64 {
+    return bitcast<f64>(bitcast<u64>(v) ^ zero);
+}
+
+/// a + b exactly for |a| ≥ |b| or a = 0, as rounded sum and its error (Dekker 1971).
+fn quick_two_sum(a: f64, b: f64, zero: u64) -> Long {
+    let s = opaque(a + b, zero);
+    return Long(s, b - opaque(s - a, zero));
+}
+
+/// a + b exactly, as rounded sum and its error: sorted, for that is three steps less than Knuth's.
+fn two_sum(a: f64, b: f64, zero: u64) -> Long {
+    let ordered = abs(a) >= abs(b);
+    return quick_two_sum(select(b, a, ordered), select(a, b, ordered), zero);
+}
+
+/// a b as rounded product and its error to 2^-106, where nothing underflows (Dekker 1971; split by masking).
+fn two_product(a: f64, b: f64, zero: u64) -> Long {
+    let p = opaque(a * b, zero);
+    let ah = bitcast<f64>(bitcast<u64>(a) & 0xfffffffff8000000lu);
+    let bh = bitcast<f64>(bitcast<u64>(b) & 0xfffffffff8000000lu);
+    let al = opaque(a - ah, zero);
+    let bl = opaque(b - bh, zero);
+    let e = opaque(opaque(ah * bh, zero) - p, zero);
+    let f = opaque(e + opaque(ah * bl, zero), zero);
+    let g = opaque(f + opaque(al * bh, zero), zero);
+    return Long(p, g + al * bl);
+}
+
+// end of exact steps
+
+/// The upper word: sign, exponent and 20 bits of the significand.
+fn double_top(x: f64) -> u32 {
+    return u32(bitcast<u64>(x) >> 32u);
+}
+
+/// The number of two words.
+fn double_from_words(high: u32, low: u32) -> f64 {
+    return bitcast<f64>((u64(high) << 32u) | u64(low));
+}
+
+/// The number of an f32, by bits where that is not finite.
+fn real_from_f32(x: f32) -> real {
+    let bits = bitcast<u32>(x);
+    let unbounded = double_from_words((bits & 0x80000000u) | 0x7ff00000u | ((bits & 0x007fffffu) >> 3u), 0u);
+    return select(f64(x), unbounded, (bits & 0x7f800000u) == 0x7f800000u);
+}
+
+/// The nearest f32.
+fn real_to_f32(x: real) -> f32 {
+    let top = double_top(x);
+    let unbounded = bitcast<f32>((top & 0x80000000u) | 0x7f800000u | ((top & 0x000fffffu) << 3u));
+    return select(f32(x), unbounded, (top & 0x7ff00000u) == 0x7ff00000u);
+}
+
+/// n exactly.
+fn real_from_i32(n: i32) -> real {
+    return f64(n);
+}
+
+/// The number of the words (low, high).
+fn real_from_words(w: vec2u) -> real {
+    return double_from_words(w.y, w.x);
+}
+
+fn real_to_words(x: real) -> vec2u {
+    return vec2u(u32(bitcast<u64>(x) & 0xfffffffflu), double_top(x));
+}
+
+/// A short constant.
+fn num(a: f32) -> real {
+    return f64(a);
+}
+
+/// A constant as the sum of three f32.
+fn lit(a: f32, b: f32, c: f32) -> real {
+    return f64(a) + (f64(b) + f64(c));
+}
+
+/// x, which no driver may join with what follows: (a / b) / c computed as a / (b c) overflows early.
+fn rounded(x: real) -> real {
+    return opaque(x, hidden_zero(x));
+}
+
+fn is_nan(x: real) -> bool {
+    return (bitcast<u64>(x) & 0x7ffffffffffffffflu) > 0x7ff0000000000000lu;
+}
+
+fn is_infinite(x: real) -> bool {
+    return (bitcast<u64>(x) & 0x7ffffffffffffffflu) == 0x7ff0000000000000lu;
+}
+
+fn is_finite(x: real) -> bool {
+    return (double_top(x) & 0x7ff00000u) != 0x7ff00000u;
+}
+
+/// Whether x is a zero.
+fn is_zero(x: real) -> bool {
+    return (bitcast<u64>(x) << 1u) == 0lu;
+}
+
+/// x < 0, -0 included.
+fn sign_is_set(x: real) -> bool {
+    return (double_top(x) & 0x80000000u) != 0u;
+}
+
+/// A quiet NaN, whatever the seed.
+fn make_nan(seed: real) -> real {
+    return bitcast<f64>(bitcast<u64>(seed) | 0x7ff8000000000000lu);
+}
+
+/// The infinity with the sign of the seed.
+fn make_infinity(seed: real) -> real {
+    return double_from_words((double_top(seed) & 0x80000000u) | 0x7ff00000u, 0u);
+}
+
+/// a where c, else b.
+fn choose(c: bool, a: real, b: real) -> real {
+    return select(b, a, c);
+}
+
+/// -a where c, by sign bits.
+fn flip_if(a: real, c: bool) -> real {
+    return bitcast<f64>(bitcast<u64>(a) ^ select(0lu, 0x8000000000000000lu, c));
+}
+
+fn real_neg(a: real) -> real {
+    return bitcast<f64>(bitcast<u64>(a) ^ 0x8000000000000000lu);
+}
+
+fn real_abs(a: real) -> real {
+    return bitcast<f64>(bitcast<u64>(a) & 0x7ffffffffffffffflu);
+}
+
+/// |a| with the sign of s.
+fn with_sign(a: real, s: real) -> real {
+    return bitcast<f64>((bitcast<u64>(a) & 0x7ffffffffffffffflu) | (bitcast<u64>(s) & 0x8000000000000000lu));
+}
+
+fn real_add(a: real, b: real) -> real {
+    return a + b;
+}
+
+fn real_sub(a: real, b: real) -> real {
+    return a - b;
+}
+
+fn add32(a: real, b: f32) -> real {
+    return a + f64(b);
+}
+
+fn real_mul(a: real, b: real) -> real {
+    return a * b;
+}
+
+fn real_square(a: real) -> real {
+    return a * a;
+}
+
+fn mul32(a: real, b: f32) -> real {
+    return a * f64(b);
+}
+
+fn real_div(a: real, b: real) -> real {
+    return a / b;
+}
+
+/// √a; NaN below 0, -0 of -0.
+fn real_sqrt(a: real) -> real {
+    if is_zero(a) || is_nan(a) {
+        return a;
+    }
+    return select(sqrt(real_abs(a)), make_nan(a), sign_is_set(a));
+}
+
+fn real_less(a: real, b: real) -> bool {
+    return a < b;
+}
+
+fn real_less_equal(a: real, b: real) -> bool {
+    return a <= b;
+}
+
+fn real_equal(a: real, b: real) -> bool {
+    return a == b;
+}
+
+fn real_not_equal(a: real, b: real) -> bool {
+    return !(a == b);
+}
+
+/// ⌊a⌋
+fn real_floor(a: real) -> real {
+    return floor(a);
+}
+
+/// 2^n for n in [-1022, 1023].
+fn double_power_of_two(n: i32) -> f64 {
+    return double_from_words(u32(n + 1023) << 20u, 0u);
+}
+
+/// a 2^n for every n: overflow and underflow happen once, at the end.
+fn scale(a: real, n: i32) -> real {
+    if abs(n) < 1000 {
+        return a * double_power_of_two(n);
+    }
+    let zero = hidden_zero(a);
+    let all = clamp(n, -2900, 2900);
+    let first = all / 3;
+    let second = (all - first) / 2;
+    let v = opaque(a * double_power_of_two(first), zero);
+    let w = opaque(v * double_power_of_two(second), zero);
+    return w * double_power_of_two(all - first - second);
+}
+
+/// ⌊log2 |a|⌋ of a finite nonzero number.
+fn exponent_of(a: real) -> i32 {
+    let p = pieces_of(a);
+    if p.high == 0u {
+        return 31 - i32(countLeadingZeros(p.low)) + p.low_exponent;
+    }
+    return 31 - i32(countLeadingZeros(p.high)) + p.high_exponent;
+}
+
+/// a + b exactly.
+fn long_sum(a: real, b: real) -> Long {
+    return two_sum(a, b, hidden_zero(a));
+}
+
+/// a b exactly, but for 2^-106 of it.
+fn long_product(a: real, b: real) -> Long {
+    return two_product(a, b, hidden_zero(a));
+}
+
+/// |a| as high · 2^high_exponent ± low · 2^low_exponent with integers.
+struct Pieces {
+    high: u32,
+    high_exponent: i32,
+    low: u32,
+    low_exponent: i32,
+    low_is_negative: bool,
+}
+
+/// The integers of a finite number.
+fn pieces_of(a: real) -> Pieces {
+    let w = real_to_words(a);
+    let e = (w.y >> 20u) & 2047u;
+    let m = (w.y & 0x000fffffu) | select(0u, 0x00100000u, e > 0u);
+    let at = i32(max(e, 1u)) - 1075;
+    return Pieces(m, at + 32, w.x, at, false);
+}
+
+/// (high 2^32 + low) 2^e, rounded, for a high that has its top bit set.
+fn real_from_integer(high: u32, low: u32, e: i32) -> real {
+    return scale(f64(high) * 4294967296.0lf + f64(low), e);
+}
+
+/// The largest number below 1.
+fn below_one() -> real {
+    return 0.9999999999999999lf;
+}

@@ -1,0 +1,367 @@
+// Numbers as unevaluated sums of two f32, hi + lo with |lo| ≤ ulp(hi)/2: 48 bits and the exponents of f32.
+//
+// Errors are in units of u² = 2^-48, relative, for operands and results of magnitude 2^-80 and more: the low word of a
+// smaller number is subnormal, and flushed by most adapters. Bounds are those of Joldes, Muller, Popescu, "Tight and
+// rigorous error bounds for basic building blocks of double-word arithmetic" (ACM TOMS 44 (2), 2017), "JMP" below.
+// The high word alone says what a number is: zero, infinite, NaN, and its sign; beside such a word the low one is a zero.
+
+alias real = vec2f;
+
+struct Complex {
+    re: real,
+    im: real,
+}
+
+/// What sincos and sinhcosh give.
+struct RealPair {
+    first: real,
+    second: real,
+}
+
+struct ComplexPair {
+    first: Complex,
+    second: Complex,
+}
+
+// exact steps
+
+/// A zero that no compiler can see: an odd square is 1 modulo 8, so bit 2 of it is never set. Xor with it hides where
+/// a value comes from, so that no algebra reaches across.
+fn hidden_zero(seed: f32) -> u32 {
+    let odd = bitcast<u32>(seed) | 1u;
+    return (odd * odd) & 4u;
+}
+
+/// v itself, cut off from the expression that gave it.
+fn opaque(v: f32, zero: u32) -> f32 {
+    return bitcast<f32>(bitcast<u32>(v) ^ zero);
+}
+
+/// a + b exactly for |a| ≥ |b| or a = 0, as rounded sum and its error (Dekker 1971).
+fn quick_two_sum(a: f32, b: f32, zero: u32) -> vec2f {
+    let s = opaque(a + b, zero);
+    return vec2f(s, b - opaque(s - a, zero));
+}
+
+/// a + b exactly, as rounded sum and its error: sorted, for that is three steps less than Knuth's.
+fn two_sum(a: f32, b: f32, zero: u32) -> vec2f {
+    let ordered = abs(a) >= abs(b);
+    return quick_two_sum(select(b, a, ordered), select(a, b, ordered), zero);
+}
+
+/// a b exactly, as rounded product and its error, where nothing underflows (Dekker 1971; split by masking).
+fn two_product(a: f32, b: f32, zero: u32) -> vec2f {
+    let p = opaque(a * b, zero);
+    let ah = bitcast<f32>(bitcast<u32>(a) & 0xfffff000u);
+    let bh = bitcast<f32>(bitcast<u32>(b) & 0xfffff000u);
+    let al = opaque(a - ah, zero);
+    let bl = opaque(b - bh, zero);
+    let e = opaque(opaque(ah * bh, zero) - p, zero);
+    let f = opaque(e + opaque(ah * bl, zero), zero);
+    let g = opaque(f + opaque(al * bh, zero), zero);
+    return vec2f(p, g + al * bl);
+}
+
+// end of exact steps
+
+/// Whether a word is 0, subnormal, infinite or NaN: then it has no low word beside it.
+fn pair_is_bare(hi: f32) -> bool {
+    return (bitcast<u32>(hi) << 1u) - 0x01000000u >= 0xfe000000u;
+}
+
+/// Whether a word is infinite or NaN.
+fn pair_is_unbounded(hi: f32) -> bool {
+    return (bitcast<u32>(hi) & 0x7f800000u) == 0x7f800000u;
+}
+
+/// A number of one word: a zero low word of its sign, so that the signs of zeros survive sums.
+fn real_from_f32(x: f32) -> real {
+    return vec2f(x, bitcast<f32>(bitcast<u32>(x) & 0x80000000u));
+}
+
+/// The nearest f32.
+fn real_to_f32(x: real) -> f32 {
+    return x.x;
+}
+
+/// n exactly.
+fn real_from_i32(n: i32) -> real {
+    return quick_two_sum(f32(n - (n & 0xffff)), f32(n & 0xffff), hidden_zero(1.0));
+}
+
+/// The number of the words (bits of hi, bits of lo).
+fn real_from_words(w: vec2u) -> real {
+    return select(bitcast<vec2f>(w), real_from_f32(bitcast<f32>(w.x)), pair_is_bare(bitcast<f32>(w.x)));
+}
+
+fn real_to_words(x: real) -> vec2u {
+    return bitcast<vec2u>(x);
+}
+
+/// A short constant.
+fn num(a: f32) -> real {
+    return real_from_f32(a);
+}
+
+/// A constant as the sum of three f32, of which a pair keeps two.
+fn lit(a: f32, b: f32, c: f32) -> real {
+    return vec2f(a, b);
+}
+
+/// x with a high word that no driver may join with what follows.
+fn rounded(x: real) -> real {
+    return x;
+}
+
+fn is_nan(x: real) -> bool {
+    return (bitcast<u32>(x.x) & 0x7fffffffu) > 0x7f800000u;
+}
+
+fn is_infinite(x: real) -> bool {
+    return (bitcast<u32>(x.x) & 0x7fffffffu) == 0x7f800000u;
+}
+
+fn is_finite(x: real) -> bool {
+    return !pair_is_unbounded(x.x);
+}
+
+/// Whether x is a zero; of a subnormal, where they are flushed, too.
+fn is_zero(x: real) -> bool {
+    return abs(x.x) == 0.0;
+}
+
+/// x < 0, -0 included.
+fn sign_is_set(x: real) -> bool {
+    return (bitcast<u32>(x.x) & 0x80000000u) != 0u;
+}
+
+/// A quiet NaN, whatever the seed.
+fn make_nan(seed: real) -> real {
+    return real_from_f32(bitcast<f32>(bitcast<u32>(seed.x) | 0x7fc00000u));
+}
+
+/// The infinity with the sign of the seed.
+fn make_infinity(seed: real) -> real {
+    return real_from_f32(bitcast<f32>((bitcast<u32>(seed.x) & 0x80000000u) | 0x7f800000u));
+}
+
+/// a where c, else b.
+fn choose(c: bool, a: real, b: real) -> real {
+    return select(b, a, c);
+}
+
+/// -a where c, by sign bits.
+fn flip_if(a: real, c: bool) -> real {
+    return bitcast<vec2f>(bitcast<vec2u>(a) ^ vec2u(select(0u, 0x80000000u, c)));
+}
+
+fn real_neg(a: real) -> real {
+    return bitcast<vec2f>(bitcast<vec2u>(a) ^ vec2u(0x80000000u));
+}
+
+fn real_abs(a: real) -> real {
+    return bitcast<vec2f>(bitcast<vec2u>(a) ^ vec2u(bitcast<u32>(a.x) & 0x80000000u));
+}
+
+/// |a| with the sign of s.
+fn with_sign(a: real, s: real) -> real {
+    return bitcast<vec2f>(bitcast<vec2u>(a) ^ vec2u((bitcast<u32>(a.x) ^ bitcast<u32>(s.x)) & 0x80000000u));
+}
+
+/// a + b. Error: 3 u² (JMP algorithm 6), also where the terms cancel.
+fn real_add(a: real, b: real) -> real {
+    let zero = hidden_zero(a.x);
+    let s = two_sum(a.x, b.x, zero);
+    let t = two_sum(a.y, b.y, zero);
+    let v = quick_two_sum(s.x, opaque(s.y + t.x, zero), zero);
+    let r = quick_two_sum(v.x, opaque(t.y + v.y, zero), zero);
+    return select(r, vec2f(s.x, 0.0), pair_is_unbounded(s.x));
+}
+
+/// a - b. Error: 3 u².
+fn real_sub(a: real, b: real) -> real {
+    return real_add(a, real_neg(b));
+}
+
+/// a + b for a word b. Error: 2 u² (JMP algorithm 4).
+fn add32(a: real, b: f32) -> real {
+    let zero = hidden_zero(a.x);
+    let s = two_sum(a.x, b, zero);
+    let r = quick_two_sum(s.x, opaque(s.y + a.y, zero), zero);
+    return select(r, vec2f(s.x, 0.0), pair_is_unbounded(s.x));
+}
+
+/// a b. Error: 5 u² (JMP algorithm 11).
+fn real_mul(a: real, b: real) -> real {
+    let zero = hidden_zero(a.x);
+    let p = two_product(a.x, b.x, zero);
+    let r = quick_two_sum(p.x, opaque(p.y + (a.x * b.y + a.y * b.x), zero), zero);
+    return select(r, real_from_f32(p.x), pair_is_bare(p.x));
+}
+
+/// a². Error: 5 u².
+fn real_square(a: real) -> real {
+    let zero = hidden_zero(a.x);
+    let p = two_product(a.x, a.x, zero);
+    let r = quick_two_sum(p.x, opaque(p.y + 2.0 * a.x * a.y, zero), zero);
+    return select(r, real_from_f32(p.x), pair_is_bare(p.x));
+}
+
+/// a b for a word b. Error: 3 u² (JMP algorithm 8).
+fn mul32(a: real, b: f32) -> real {
+    let zero = hidden_zero(a.x);
+    let p = two_product(a.x, b, zero);
+    let r = quick_two_sum(p.x, opaque(p.y + a.y * b, zero), zero);
+    return select(r, real_from_f32(p.x), pair_is_bare(p.x));
+}
+
+/// a / b. Error: 10 u² where the words' quotients are correctly rounded (after JMP algorithm 17).
+fn real_div(a: real, b: real) -> real {
+    let zero = hidden_zero(a.x);
+    let q = opaque(a.x / b.x, zero);
+    let p = two_product(q, b.x, zero);
+    let rest = opaque(opaque(a.x - p.x, zero) - p.y, zero) + (a.y - q * b.y);
+    let correction = opaque(rest / b.x, zero);
+    let bare = pair_is_bare(q) || pair_is_unbounded(correction);
+    return select(quick_two_sum(q, correction, zero), real_from_f32(q), bare);
+}
+
+/// √a; NaN below 0, -0 of -0. Error: 4 u² (Lefèvre, Louvet, Muller, Picot, Rideau 2023).
+fn real_sqrt(a: real) -> real {
+    let zero = hidden_zero(a.x);
+    // a tiny one is scaled, for its square's low word would underflow
+    let tiny = abs(a.x) < 3.5527137e-15;
+    let v = a * select(1.0, 1.1529215e18, tiny);
+    let s = opaque(sqrt(abs(v.x)), zero);
+    let p = two_product(s, s, zero);
+    let rest = opaque(opaque(abs(v.x) - p.x, zero) - p.y, zero) + v.y;
+    let r = quick_two_sum(s, opaque(rest / (2.0 * s), zero), zero) * select(1.0, 9.313226e-10, tiny);
+    if pair_is_bare(s) {
+        return a;
+    }
+    return select(r, make_nan(a), sign_is_set(a));
+}
+
+fn real_less(a: real, b: real) -> bool {
+    return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
+
+fn real_less_equal(a: real, b: real) -> bool {
+    return a.x < b.x || (a.x == b.x && a.y <= b.y);
+}
+
+fn real_equal(a: real, b: real) -> bool {
+    return a.x == b.x && a.y == b.y;
+}
+
+fn real_not_equal(a: real, b: real) -> bool {
+    return !real_equal(a, b);
+}
+
+/// ⌊a⌋
+fn real_floor(a: real) -> real {
+    let f = floor(a.x);
+    if pair_is_unbounded(a.x) {
+        return a;
+    }
+    let whole = quick_two_sum(f, floor(a.y), hidden_zero(a.x));
+    return select(real_from_f32(f), whole, f == a.x && a.y != 0.0);
+}
+
+/// 2^n for n in [-126, 127].
+fn pair_power_of_two(n: i32) -> f32 {
+    return bitcast<f32>(u32(n + 127) << 23u);
+}
+
+/// a 2^n for every n: overflow and underflow happen once, at the end.
+fn scale(a: real, n: i32) -> real {
+    if abs(n) < 120 {
+        return a * pair_power_of_two(n);
+    }
+    let zero = vec2u(hidden_zero(a.x));
+    let all = clamp(n, -360, 360);
+    let first = all / 3;
+    let second = (all - first) / 2;
+    let v = bitcast<vec2f>(bitcast<vec2u>(a * pair_power_of_two(first)) ^ zero);
+    let w = bitcast<vec2f>(bitcast<vec2u>(v * pair_power_of_two(second)) ^ zero);
+    let r = w * pair_power_of_two(all - first - second);
+    return select(r, real_from_f32(r.x), pair_is_bare(r.x));
+}
+
+/// ⌊log2 |hi|⌋ of a finite nonzero number.
+fn exponent_of(a: real) -> i32 {
+    let bits = bitcast<u32>(a.x) & 0x7fffffffu;
+    let subnormal = 31 - i32(countLeadingZeros(bits)) - 149;
+    return select(i32(bits >> 23u) - 127, subnormal, bits < 0x00800000u);
+}
+
+/// Two numbers whose sum is meant, with about twice the precision of one.
+struct Long {
+    hi: real,
+    lo: real,
+}
+
+/// a + b exactly, but for what is below 2^-90 of it.
+fn long_sum(a: real, b: real) -> Long {
+    let zero = hidden_zero(a.x);
+    let s = two_sum(a.x, b.x, zero);
+    let t = two_sum(a.y, b.y, zero);
+    let u = two_sum(s.y, t.x, zero);
+    return pair_long(s.x, u.x, u.y, t.y, zero);
+}
+
+/// a b, but for what is below 2^-90 of it.
+fn long_product(a: real, b: real) -> Long {
+    let zero = hidden_zero(a.x);
+    let p = two_product(a.x, b.x, zero);
+    let q = two_product(a.x, b.y, zero);
+    let r = two_product(a.y, b.x, zero);
+    let s = two_sum(q.x, r.x, zero);
+    let t = two_sum(p.y, s.x, zero);
+    return pair_long(p.x, t.x, opaque(t.y + s.y, zero), q.y + r.y + a.y * b.y, zero);
+}
+
+/// a + b + c + d of falling magnitudes, |a| ≥ |b| where a is not 0.
+fn pair_long(a: f32, b: f32, c: f32, d: f32, zero: u32) -> Long {
+    let low = two_sum(c, d, zero);
+    let middle = two_sum(b, low.x, zero);
+    let top = two_sum(a, middle.x, zero);
+    let next = two_sum(top.y, middle.y, zero);
+    let hi = quick_two_sum(top.x, next.x, zero);
+    let lo = quick_two_sum(hi.y, next.y, zero);
+    let plain = pair_is_unbounded(a);
+    return Long(
+        select(vec2f(hi.x, lo.x), vec2f(a, 0.0), plain),
+        select(quick_two_sum(lo.y, opaque(low.y, zero), zero), vec2f(0.0), plain),
+    );
+}
+
+/// |a| as high · 2^high_exponent ± low · 2^low_exponent with integers.
+struct Pieces {
+    high: u32,
+    high_exponent: i32,
+    low: u32,
+    low_exponent: i32,
+    low_is_negative: bool,
+}
+
+/// The integers of a finite number.
+fn pieces_of(a: real) -> Pieces {
+    let w = bitcast<vec2u>(a);
+    let e = (w >> vec2u(23u)) & vec2u(255u);
+    let m = (w & vec2u(0x007fffffu)) | select(vec2u(0u), vec2u(0x00800000u), e > vec2u(0u));
+    let at = vec2i(max(e, vec2u(1u))) - 150;
+    return Pieces(m.x, at.x, m.y, at.y, ((w.x ^ w.y) & 0x80000000u) != 0u);
+}
+
+/// (high 2^32 + low) 2^e, rounded to 48 bits, for a high that has its top bit set.
+fn real_from_integer(high: u32, low: u32, e: i32) -> real {
+    let next = ((high & 0xffu) << 16u) | (low >> 16u);
+    let v = quick_two_sum(f32(high >> 8u) * 16777216.0, f32(next + ((low >> 15u) & 1u)), hidden_zero(1.0));
+    return scale(v, e + 16);
+}
+
+/// 1 - 2^-48, the largest number below 1 of 48 bits.
+fn below_one() -> real {
+    return vec2f(1.0, -3.5527137e-15);
+}

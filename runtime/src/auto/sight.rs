@@ -1,0 +1,244 @@
+//! What the eye sees of an error of the formula's value.
+
+use std::fmt;
+
+use pullback_compiler::SettingValue;
+use pullback_compiler::scene::Space;
+
+use super::Scenery;
+use super::points::Sample;
+
+/// Change of a colour, of 1, below which it is not seen: half a step of 8 bits.
+pub const COLOUR: f64 = 1.0 / 512.0;
+/// Displacement of a line in pixels below which it is not seen.
+pub const DISPLACEMENT: f64 = 0.25;
+/// How far a line may pass from a sample and still be in sight of it, in pixels.
+const IN_SIGHT: f64 = 2.0;
+/// The greatest slope of a colour component along the hue circle, per turn: HSV rises by 1 in a sixth of a turn.
+const HUE_SLOPE: f64 = 6.0;
+
+/// What is seen at a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sight {
+    /// Change of the colour, of 1.
+    pub colour: f64,
+    /// Displacement of the lines in sight, or of the surface, in pixels.
+    pub displacement: f64,
+}
+
+impl Sight {
+    /// One is a number and the other is not: nothing in common.
+    const OTHER: Self = Self {
+        colour: 1.0,
+        displacement: 0.0,
+    };
+
+    /// Whether it can be seen.
+    #[must_use]
+    pub fn is_visible(self) -> bool {
+        self.rank() >= 1.0
+    }
+
+    /// How many times the least that can be seen.
+    #[must_use]
+    pub fn rank(self) -> f64 {
+        (self.colour / COLOUR).max(self.displacement / DISPLACEMENT)
+    }
+}
+
+impl fmt::Display for Sight {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{:.2e} of a colour and {:.2e} pixels",
+            self.colour, self.displacement
+        )
+    }
+}
+
+/// A pattern over the range of a function: where its lines are, and how its colours change.
+#[derive(Clone, Copy, Debug)]
+struct Pattern {
+    /// From line to line.
+    period: f64,
+    /// Change of the value over which a colour component changes by 1, at the least.
+    colour: f64,
+}
+
+/// Knows how a scene turns values into colours and lines.
+#[derive(Clone, Copy, Debug)]
+pub struct Eye {
+    space: Space,
+    value: Pattern,
+}
+
+impl Eye {
+    pub fn new(scenery: &Scenery) -> Self {
+        let space = scenery.program.pictures()[scenery.picture].scene.space;
+        let setting = |name: &str, missing: f64| number(scenery.settings, name).unwrap_or(missing);
+        let value = match space {
+            Space::Complex => Pattern {
+                // rings are at equal distances of log |f|
+                period: setting("ring_octaves", 1.0) * std::f64::consts::LN_2,
+                colour: std::f64::consts::TAU / HUE_SLOPE,
+            },
+            Space::Plane | Space::Space => {
+                let scale = Some(setting("color_scale", 1.0))
+                    .filter(|s| *s > 0.0)
+                    .unwrap_or(1.0);
+                let spacing = setting("spacing", 0.0);
+                Pattern {
+                    period: if spacing > 0.0 { spacing } else { 0.25 * scale },
+                    colour: scale,
+                }
+            }
+        };
+        Self { space, value }
+    }
+
+    /// What is seen of the difference between the true value with its derivatives and that of a tier.
+    pub fn difference(&self, sample: &Sample, truth: &[f64], found: &[f64]) -> Sight {
+        match self.space {
+            Space::Plane => self.level(sample, truth, found),
+            Space::Complex => self.phase(sample, truth, found),
+            Space::Space => surface(sample, truth, found),
+        }
+    }
+
+    /// Of a real function of the plane.
+    fn level(&self, sample: &Sample, truth: &[f64], found: &[f64]) -> Sight {
+        let (&value, &got) = match (truth.first(), found.first()) {
+            (Some(value), Some(got)) => (value, got),
+            _ => return Sight::default(),
+        };
+        // the picture has the value in single precision, and draws what overflows like an infinity
+        let (narrow, got) = (single(value), single(got));
+        if !(narrow.is_finite() && got.is_finite()) {
+            return if same(narrow, got) {
+                Sight::default()
+            } else {
+                Sight::OTHER
+            };
+        }
+        let rate = length(&truth[1..]) * sample.footprint;
+        self.value.seen(value, (got - value).abs(), rate)
+    }
+
+    /// Of a complex function.
+    fn phase(&self, sample: &Sample, truth: &[f64], found: &[f64]) -> Sight {
+        let (&[re, im, ..], &[got_re, got_im, ..]) = (truth, found) else {
+            return Sight::default();
+        };
+        let size = re.hypot(im);
+        let parts = [(single(re), single(got_re)), (single(im), single(got_im))];
+        if parts.iter().any(|(a, b)| !(a.is_finite() && b.is_finite())) || size == 0.0 {
+            let alike = parts.iter().all(|&(a, b)| same(a, b));
+            return if alike {
+                Sight::default()
+            } else {
+                Sight::OTHER
+            };
+        }
+        let error = (parts[0].1 - re).hypot(parts[1].1 - im) / size;
+        let derivatives = truth[2..].chunks_exact(2).map(length);
+        let rate = derivatives.sum::<f64>() / size * sample.footprint;
+        self.value.seen(size.ln(), error, rate)
+    }
+}
+
+impl Pattern {
+    /// What is seen where a value that changes by `rate` from pixel to pixel has an error.
+    fn seen(self, value: f64, error: f64, rate: f64) -> Sight {
+        // what is finer than a pixel is drawn as its mean
+        if !(rate < self.period) {
+            return Sight::default();
+        }
+        let colour = error / self.colour;
+        let nearest = (value / self.period).round() * self.period;
+        let in_sight = (value - nearest).abs() <= error + IN_SIGHT * rate;
+        let displacement = if in_sight && error > 0.0 {
+            error / rate
+        } else {
+            0.0
+        };
+        Sight {
+            colour,
+            displacement,
+        }
+    }
+}
+
+/// Of a surface: the displacement of the point along the gradient, and the turn of the normal as a colour.
+fn surface(sample: &Sample, truth: &[f64], found: &[f64]) -> Sight {
+    if truth.iter().any(|x| !x.is_finite()) {
+        return Sight::default();
+    }
+    if found.iter().any(|x| !x.is_finite()) {
+        return Sight::OTHER;
+    }
+    let (slope, got) = (length(&truth[1..]), length(&found[1..]));
+    if slope == 0.0 || got == 0.0 {
+        return Sight::default();
+    }
+    let turns = truth[1..].iter().zip(&found[1..]);
+    let turn = turns
+        .map(|(a, b)| (a / slope - b / got).powi(2))
+        .sum::<f64>();
+    Sight {
+        colour: turn.sqrt(),
+        displacement: (found[0] - truth[0]).abs() / (slope * sample.footprint),
+    }
+}
+
+fn number(settings: &[SettingValue], name: &str) -> Option<f64> {
+    settings
+        .iter()
+        .find(|s| s.spec.name == name)
+        .map(|s| s.value.x)
+}
+
+fn single(x: f64) -> f64 {
+    f64::from(x as f32)
+}
+
+/// Whether two numbers are drawn alike, one of which is not finite.
+fn same(a: f64, b: f64) -> bool {
+    a == b || (a.is_nan() && b.is_nan())
+}
+
+fn length(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |sum: f64, x| sum.hypot(*x))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PATTERN: Pattern = Pattern {
+        period: 1.0,
+        colour: 4.0,
+    };
+
+    #[test]
+    fn an_error_displaces_lines_in_sight() {
+        // half a pixel off, a line one pixel away
+        let seen = PATTERN.seen(3.001, 5e-4, 1e-3);
+        assert!((seen.displacement - 0.5).abs() < 1e-12 && seen.is_visible());
+        // no line near
+        let seen = PATTERN.seen(3.4, 5e-4, 1e-3);
+        assert_eq!(seen.displacement, 0.0);
+        assert!(!seen.is_visible());
+    }
+
+    #[test]
+    fn an_error_changes_colours() {
+        assert!(PATTERN.seen(3.4, 0.01, 0.1).is_visible());
+        assert!(!PATTERN.seen(3.4, 0.005, 0.1).is_visible());
+    }
+
+    #[test]
+    fn what_is_finer_than_a_pixel_is_not_seen() {
+        assert_eq!(PATTERN.seen(3.0, 5.0, 1.5), Sight::default());
+        assert_eq!(PATTERN.seen(3.0, 5.0, f64::NAN), Sight::default());
+    }
+}
