@@ -584,6 +584,10 @@ def holds(op, a, b):
 class Exact:
     """Evaluates FPCore trees in balls, at the precision of `ctx`."""
 
+    unary, binary, fixed = UNARY, BINARY, FIXED
+    literal, holds, div = staticmethod(literal_ball), staticmethod(holds), staticmethod(real_div)
+    checked = staticmethod(checked)
+
     def __init__(self, others=None, steps=0):
         self.others, self.steps = others or {}, steps
 
@@ -591,21 +595,21 @@ class Exact:
         if isinstance(node, str):
             if node in env:
                 return env[node]
-            if node in FIXED:
-                return FIXED[node]()
-            return literal_ball(node)
+            if node in self.fixed:
+                return self.fixed[node]()
+            return self.literal(node)
         head, args = node[0], node[1:]
         if head in ("+", "-", "*", "/"):
             return self.arithmetic(head, [self.value(a, env) for a in args])
-        if head in UNARY:
-            return checked(UNARY[head](self.value(args[0], env)))
-        if head in BINARY:
-            return checked(BINARY[head](self.value(args[0], env), self.value(args[1], env)))
+        if head in self.unary:
+            return self.checked(self.unary[head](self.value(args[0], env)))
+        if head in self.binary:
+            return self.checked(self.binary[head](self.value(args[0], env), self.value(args[1], env)))
         if head in COMPARISONS:
             values = [self.value(a, env) for a in args]
             if head == "!=":
-                return all(holds(head, a, b) for k, a in enumerate(values) for b in values[k + 1 :])
-            return all(holds(head, a, b) for a, b in zip(values, values[1:]))
+                return all(self.holds(head, a, b) for k, a in enumerate(values) for b in values[k + 1 :])
+            return all(self.holds(head, a, b) for a, b in zip(values, values[1:]))
         if head == "if":
             return self.value(args[1] if self.value(args[0], env) else args[2], env)
         if head == "and":
@@ -639,7 +643,7 @@ class Exact:
 
     def arithmetic(self, head, values):
         if len(values) == 1:
-            return -values[0] if head == "-" else values[0] if head in "+*" else real_div(arb(1), values[0])
+            return -values[0] if head == "-" else values[0] if head in "+*" else self.div(self.literal("1"), values[0])
         result = values[0]
         for value in values[1:]:
             if head == "+":
@@ -649,8 +653,8 @@ class Exact:
             elif head == "*":
                 result = result * value
             else:
-                result = real_div(result, value)
-        return checked(result)
+                result = self.div(result, value)
+        return self.checked(result)
 
     def loop(self, head, args, env):
         condition, bindings, body = args
