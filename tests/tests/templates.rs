@@ -142,12 +142,15 @@ fn demands_have_the_contract_s_signatures() {
     let allowed: BTreeMap<&str, Vec<&str>> = BTreeMap::from([
         (
             "field",
-            vec!["fn field(p: vec2f) -> f32", "fn field(p: vec3f) -> f32"],
+            vec![
+                "fn field(offset: vec2f) -> f32",
+                "fn field(p: vec3f) -> f32",
+            ],
         ),
         (
             "field_grad",
             vec![
-                "fn field_grad(p: vec2f) -> vec3f",
+                "fn field_grad(offset: vec2f) -> vec3f",
                 "fn field_grad(p: vec3f) -> vec4f",
             ],
         ),
@@ -155,8 +158,8 @@ fn demands_have_the_contract_s_signatures() {
             "field_ray",
             vec!["fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f"],
         ),
-        ("map", vec!["fn map(z: vec2f) -> vec2f"]),
-        ("map_jet", vec!["fn map_jet(z: vec2f) -> Jet"]),
+        ("map", vec!["fn map(offset: vec2f) -> vec2f"]),
+        ("map_jet", vec!["fn map_jet(offset: vec2f) -> Jet"]),
     ]);
     for scene in scenes() {
         let mut demands = 0;
@@ -168,10 +171,10 @@ fn demands_have_the_contract_s_signatures() {
             demands += 1;
             let declared = line.split('{').next().unwrap_or_default().trim();
             assert!(forms.contains(&declared), "{}: {declared}", scene.name);
-            let space = if declared.contains("vec2f) -> f32") || declared.contains("(p: vec2f)") {
-                Space::Plane
-            } else if declared.contains("(z: vec2f)") {
+            let space = if name.starts_with("map") {
                 Space::Complex
+            } else if declared.contains("(offset: vec2f)") {
+                Space::Plane
             } else {
                 Space::Space
             };
@@ -427,8 +430,9 @@ fn settings_of(scene: &Scene) -> Result<(), String> {
         }
     }
     for setting in scene.settings {
-        let in_view = matches!(setting.name, "center" | "height") && scene.space != Space::Space;
-        if !in_view && !members.iter().any(|(name, ..)| name == setting.name) {
+        if setting.is_in_template(scene.space)
+            && !members.iter().any(|(name, ..)| name == setting.name)
+        {
             return Err(format!("the setting `{}` has no member", setting.name));
         }
         let doubled = scene

@@ -8,7 +8,7 @@ pub use text::{Target, write};
 
 use pullback_grammar::Diagnostic;
 
-use crate::lower::Precision;
+use crate::lower::{Format, LowerError, Precision};
 use crate::module::{EvalModule, Evaluator, ModuleError, SceneModule, What};
 use crate::program::{Picture, Program};
 
@@ -94,6 +94,7 @@ impl Program {
         precision: Precision,
     ) -> Result<Vec<u8>, Vec<Diagnostic>> {
         self.with_picture(picture, |p| {
+            can_say(target, precision)?;
             let (mut module, info, header) = match what {
                 EmitWhat::Scene => {
                     let scene = SceneModule::new(p, precision)?;
@@ -115,4 +116,15 @@ impl Program {
             write(&module, &info, target, &header).map_err(ModuleError::Invalid)
         })
     }
+}
+
+/// Fails where a shading language cannot say what a tier needs: 64-bit numbers, and their bits as integers.
+fn can_say(target: Target, precision: Precision) -> Result<(), ModuleError> {
+    if precision.format() != Format::Double || matches!(target, Target::Wgsl | Target::Spirv) {
+        return Ok(());
+    }
+    Err(ModuleError::Lower(LowerError::Demand(
+        "`double` is written as WGSL (with the f64 and u64 of wgpu) and as SPIR-V only; `extended` as any target"
+            .to_owned(),
+    )))
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::Space;
 use crate::numeral::Numeral;
 
 /// What values a setting takes.
@@ -171,9 +172,15 @@ impl SettingSpec {
         Ok(())
     }
 
-    /// Whether it belongs to the view and not to the template's `Settings`.
+    /// Whether it says what is seen: of scenes of the plane, the view.
     #[must_use]
     pub fn is_view(&self) -> bool {
         self.kind == SettingKind::Vec2 || self.name == "height"
+    }
+
+    /// Whether it is a member of the template's `Settings`: neither the view of the plane nor the precision is.
+    #[must_use]
+    pub fn is_in_template(&self, space: Space) -> bool {
+        !(self.name == "precision" || self.is_view() && space != Space::Space)
     }
 }

@@ -222,6 +222,7 @@ pub fn by_name(name: &str) -> Option<&'static Row> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lower::Format;
 
     #[test]
     fn names_and_mnemonics_are_unique() {
@@ -238,27 +239,45 @@ mod tests {
         }
     }
 
-    /// Every library function that a row names exists in the shader library.
+    /// Every library function that a row names exists in the shader library of every format.
     #[test]
     fn shader_functions_exist() {
-        let known: Vec<&str> = crate::link::math_module()
-            .functions
+        for format in [Format::Single, Format::Pair, Format::Double] {
+            let known: Vec<&str> = crate::link::number_module(format)
+                .functions
+                .iter()
+                .filter_map(|(_, f)| f.name.as_deref())
+                .collect();
+            let missing: Vec<&str> = needed().filter(|name| !known.contains(name)).collect();
+            assert!(missing.is_empty(), "{format:?} lacks {missing:?}");
+        }
+    }
+
+    /// Names of the library functions that rows name, and of those that the lowering writes by itself.
+    fn needed() -> impl Iterator<Item = &'static str> {
+        let named = |row: &'static Row| {
+            let real = match row.gpu {
+                Gpu::Library(name, _) => name,
+                _ => "",
+            };
+            let both = pair(row.prim).map_or(["", ""], |p| [p.gpu, p.gpu_complex]);
+            [real, row.gpu_complex, both[0], both[1]]
+        };
+        let written = [
+            "make_infinity",
+            "make_nan",
+            "real_powi",
+            "real_polygamma",
+            "rounded",
+            "complex_square",
+            "complex_inverse",
+            "complex_powi",
+            "complex_polygamma",
+        ];
+        rows()
             .iter()
-            .filter_map(|(_, f)| f.name.as_deref())
-            .collect();
-        for row in rows() {
-            if let Gpu::Library(name, _) = row.gpu {
-                assert!(known.contains(&name), "{name}");
-            }
-            if !row.gpu_complex.is_empty() {
-                assert!(known.contains(&row.gpu_complex), "{}", row.gpu_complex);
-            }
-            if let Some(pair) = pair(row.prim) {
-                assert!(known.contains(&pair.gpu) && known.contains(&pair.gpu_complex));
-            }
-        }
-        for name in ["make_infinity", "make_nan", "real_powi"] {
-            assert!(known.contains(&name), "{name}");
-        }
+            .flat_map(named)
+            .chain(written)
+            .filter(|name| !name.is_empty())
     }
 }

@@ -40,7 +40,7 @@ pub enum Outcome {
         /// World coordinates of that sample.
         at: [f64; 3],
     },
-    /// It cannot be told from the true one; the greatest difference.
+    /// It cannot be told from the true one; the greatest differences.
     Same(Sight),
 }
 
@@ -249,17 +249,19 @@ pub fn compare(
     let columns = module.outputs.len().max(1);
     let eye = sight::Eye::new(scenery);
     let mut worst = (Sight::default(), [0.0; 3]);
+    let mut most = Sight::default();
     let mut count = 0;
     for (k, sample) in samples.iter().enumerate() {
         let row = k * columns..(k + 1) * columns;
         let seen = eye.difference(sample, &true_values[row.clone()], &values[row]);
         count += usize::from(seen.is_visible());
+        most = most.max(seen);
         if seen.rank() > worst.0.rank() {
             worst = (seen, sample.point);
         }
     }
     Ok(if count == 0 {
-        Outcome::Same(worst.0)
+        Outcome::Same(most)
     } else {
         Outcome::Differs {
             count,

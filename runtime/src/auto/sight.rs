@@ -33,6 +33,14 @@ impl Sight {
         displacement: 0.0,
     };
 
+    /// The greater of both colours and of both displacements.
+    pub(super) fn max(self, other: Self) -> Self {
+        Self {
+            colour: self.colour.max(other.colour),
+            displacement: self.displacement.max(other.displacement),
+        }
+    }
+
     /// Whether it can be seen.
     #[must_use]
     pub fn is_visible(self) -> bool {
