@@ -5,6 +5,7 @@ text in our language, so a wrong translation shows as a wrong value.
 """
 
 import re
+import unicodedata
 from fractions import Fraction
 
 from flint import arb, ctx, fmpq
@@ -147,7 +148,8 @@ class Translator:
         self.used, self.calls, self.budget = set(TAKEN), [], self.STEPS
 
     def fresh(self, name):
-        plain = re.sub(r"[^A-Za-z0-9_]", "_", name)
+        latin = "".join(c if c.isascii() else unicodedata.name(c, "").split()[-1].lower() for c in name)
+        plain = re.sub(r"[^A-Za-z0-9_]", "_", latin)
         if not plain or plain[0].isdigit():
             plain = "v" + plain
         word, k = plain, 1

@@ -61,11 +61,13 @@ def power(x, y):
         if y == 0:
             return mpf(1)
         raise NoNumber
+    if x != 1 and abs(y) > 1e60:
+        raise NoNumber
     return mpmath.power(x, y)
 
 
 def fmod(x, y):
-    if y == 0:
+    if y == 0 or abs(x) > HUGE:
         raise NoNumber
     with mp.workprec(4000):
         value = x - y * truncated(x / y)
@@ -105,21 +107,40 @@ def exponential(f):
     """Powers that are too large to write down have no place here."""
 
     def g(x):
-        if abs(x) > 1e9:
+        if abs(x) > 1e60:
             raise NoNumber
         return f(x)
 
     return g
 
 
+HUGE = mpf(2) ** 4096
+
+
+def wave(f):
+    """A number of more digits than that is not reduced."""
+
+    def g(x):
+        if abs(x) > HUGE:
+            raise NoNumber
+        return f(x)
+
+    return g
+
+
+def whole(f):
+    return lambda x: x if abs(x) > HUGE else f(x)
+
+
 UNARY = {
     "sqrt": mpmath.sqrt, "cbrt": cbrt, "exp": exponential(mpmath.exp), "expm1": exponential(mpmath.expm1),
     "exp2": exponential(lambda x: mpmath.power(2, x)), "log": logarithm, "log1p": log1p, "log2": log_base(2),
-    "log10": log_base(10), "sin": mpmath.sin, "cos": mpmath.cos, "tan": mpmath.tan, "asin": mpmath.asin,
+    "log10": log_base(10), "sin": wave(mpmath.sin), "cos": wave(mpmath.cos), "tan": wave(mpmath.tan), "asin": mpmath.asin,
     "acos": mpmath.acos, "atan": mpmath.atan, "sinh": exponential(mpmath.sinh), "cosh": exponential(mpmath.cosh),
     "tanh": lambda x: mpmath.tanh(x) if abs(x) < 1e4 else mpmath.sign(x), "asinh": mpmath.asinh, "acosh": mpmath.acosh,
-    "atanh": atanh, "fabs": lambda x: abs(x), "floor": mpmath.floor, "ceil": mpmath.ceil, "trunc": truncated,
-    "round": to_nearest, "tgamma": mpmath.gamma, "lgamma": lambda x: logarithm(abs(mpmath.gamma(x))),
+    "atanh": atanh, "fabs": lambda x: abs(x), "floor": whole(mpmath.floor), "ceil": whole(mpmath.ceil),
+    "trunc": whole(truncated), "round": whole(to_nearest), "tgamma": wave(mpmath.gamma),
+    "lgamma": wave(lambda x: logarithm(abs(mpmath.gamma(x)))),
 }
 BINARY = {
     "pow": power, "atan2": mpmath.atan2, "hypot": hypot, "fmin": lambda x, y: min(x, y), "fmax": lambda x, y: max(x, y),

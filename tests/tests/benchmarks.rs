@@ -1,0 +1,1 @@
+//! The benchmark expressions of FPBench and Herbie.
