@@ -7,6 +7,7 @@ use crate::derive::{ComplexVariable, forward, gradient, jet};
 use crate::formula::Formula;
 use crate::ir::{Graph, Id, Ty};
 use crate::link::{Linker, Provider};
+use crate::stable::finish;
 use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
 
 /// Names of the stubs that are filled from a formula.
@@ -52,7 +53,8 @@ impl Provider for Demand<'_> {
             output: answer.output,
             precision: self.precision,
         };
-        lower(&answer.graph, &answer.roots, interface, linker).map(Some)
+        let (graph, roots) = finish(answer.graph, answer.roots, self.formula.rewrites);
+        lower(&graph, &roots, interface, linker).map(Some)
     }
 }
 
@@ -65,7 +67,8 @@ pub fn uniforms(linker: &mut Linker, clock: &str) -> Result<Leaves, LowerError> 
 
 impl Demand<'_> {
     fn graph(&self) -> (Graph, Vec<Id>) {
-        self.formula.graph.compacted(&self.formula.value)
+        let formula = self.formula.stabilised();
+        formula.graph.compacted(&formula.value)
     }
 
     /// The stub's one argument is a point: a complex input is all of it, real inputs are its components.
@@ -150,9 +153,10 @@ impl Demand<'_> {
             .chain([Argument::Whole(2)])
             .collect();
         let t = Formula::leaf(&mut graph, 6, Ty::Real);
+        let formula = self.formula.stabilised();
         let roots = substitute(
-            &self.formula.graph,
-            &self.formula.value,
+            &formula.graph,
+            &formula.value,
             &mut graph,
             |g, k| {
                 let k = usize::from(k);

@@ -10,6 +10,7 @@ mod unused;
 use crate::check::{Symbols, check_names, is_builtin_function};
 use crate::formula::Formula;
 use crate::scene::{Scene, SettingSpec};
+use crate::stable::Rewrites;
 use checker::Checker;
 use glam::DVec3;
 pub use outline::{ConstantInfo, FunctionInfo, MAX_SIGNATURES, Outline, Signature};
@@ -74,6 +75,15 @@ impl Program {
     #[must_use]
     pub fn params(&self) -> &[ParamInfo] {
         &self.params
+    }
+
+    /// The same program with other stability rewrites in all its formulas.
+    #[must_use]
+    pub fn with_rewrites(mut self, rewrites: Rewrites) -> Self {
+        for picture in &mut self.pictures {
+            picture.formula.rewrites = rewrites;
+        }
+        self
     }
 
     /// One picture for each `show`, or the default one. Never empty.

@@ -131,6 +131,7 @@ impl<'a> Checker<'a> {
             graph: builder.graph,
             ty,
             span,
+            rewrites: crate::stable::Rewrites::ON,
         })
     }
 
