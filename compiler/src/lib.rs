@@ -31,6 +31,7 @@ pub mod program;
 pub mod reference;
 pub mod scene;
 mod simplify;
+pub mod stable;
 pub mod table;
 pub mod types;
 

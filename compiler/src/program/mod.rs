@@ -11,6 +11,7 @@ mod unused;
 use crate::check::{Symbols, check_names, is_builtin_function};
 use crate::formula::Formula;
 use crate::scene::{Scene, SettingKind, SettingSpec};
+use crate::stable::Rewrites;
 use checker::Checker;
 pub use function::compile_function;
 use glam::DVec3;
@@ -92,6 +93,15 @@ impl Program {
     #[must_use]
     pub fn params(&self) -> &[ParamInfo] {
         &self.params
+    }
+
+    /// The same program with other stability rewrites in all its formulas.
+    #[must_use]
+    pub fn with_rewrites(mut self, rewrites: Rewrites) -> Self {
+        for picture in &mut self.pictures {
+            picture.formula.rewrites = rewrites;
+        }
+        self
     }
 
     /// One picture for each `show`, or the default one. Never empty.

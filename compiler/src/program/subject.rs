@@ -142,6 +142,7 @@ impl<'a> Checker<'a> {
             graph: builder.graph,
             ty,
             span,
+            rewrites: crate::stable::Rewrites::ON,
         })
     }
 
