@@ -357,10 +357,13 @@ class Translator:
                 text = word
             updates.append(text)
         step = ", ".join(updates)
-        if locals_:
-            step += " where " + ", ".join(locals_)
-        if len(updates) > 1 or locals_:
+        if 1 < len(updates) <= 4:
             step = f"({step})"
+            if locals_:
+                step += " where " + ", ".join(locals_)
+        elif locals_:
+            # locals of all steps go with a bracket, which holds four at most: here each step has its own
+            step = ", ".join(f"({u} where {', '.join(locals_[: k + 1])})" for k, u in enumerate(updates))
         until = self.text(["not", condition], inside, OR)
         state = ", ".join(f"{word} = {text}" for word, text in starts)
         loop = f"iterate({steps}, {state}, {step} until {until})"
