@@ -34,6 +34,12 @@ fn hidden_zero(seed: f64) -> u64 {
     return u64((odd * odd) & 4u);
 }
 
+/// A hidden zero for an operation on two numbers. One of them may be a constant, of which alone the compiler would know
+/// it; and both may be the same.
+fn hidden_zero_of(a: f64, b: f64) -> u64 {
+    return hidden_zero(bitcast<f64>((bitcast<u64>(a) << 1u) ^ bitcast<u64>(b)));
+}
+
 /// v itself, cut off from the expression that gave it.
 fn opaque(v: f64, zero: u64) -> f64 {
     return bitcast<f64>(bitcast<u64>(v) ^ zero);
@@ -241,7 +247,7 @@ fn scale(a: real, n: i32) -> real {
     if abs(n) < 1000 {
         return a * double_power_of_two(n);
     }
-    let zero = hidden_zero(a);
+    let zero = hidden_zero_of(a, f64(n));
     let all = clamp(n, -2900, 2900);
     let first = all / 3;
     let second = (all - first) / 2;
@@ -261,12 +267,12 @@ fn exponent_of(a: real) -> i32 {
 
 /// a + b exactly.
 fn long_sum(a: real, b: real) -> Long {
-    return two_sum(a, b, hidden_zero(a));
+    return two_sum(a, b, hidden_zero_of(a, b));
 }
 
 /// a b exactly, but for 2^-106 of it.
 fn long_product(a: real, b: real) -> Long {
-    return two_product(a, b, hidden_zero(a));
+    return two_product(a, b, hidden_zero_of(a, b));
 }
 
 /// |a| as high · 2^high_exponent ± low · 2^low_exponent with integers.
@@ -296,3 +302,60 @@ fn real_from_integer(high: u32, low: u32, e: i32) -> real {
 fn below_one() -> real {
     return 0.9999999999999999lf;
 }
+
+/// (e^r - 1 - r) / r² for |r| ≤ log(2)/2; coefficients.py.
+/// Error: 2^-56 of e^r - 1.
+fn exp_tail(r: real) -> real {
+    return 0.5000000000000001lf + r * (0.1666666666666667lf + r * (0.041666666666652065lf + r * (
+        0.008333333333326044lf + r * (0.001388888889567415lf + r * (0.00019841269875149243lf + r * (
+        2.4801574440710326e-05lf + r * (2.7557254975619854e-06lf + r * (2.75679675027895e-07lf + r * (
+        2.510539626313525e-08lf + r * 1.7687825063192754e-09lf)))))))));
+}
+
+/// (log((1 + s)/(1 - s)) - 2 s - 2 s³/3) / s⁵, z = s² ≤ 0.0295; coefficients.py.
+/// Error: 2^-59 of the logarithm.
+fn log_rest(z: real) -> real {
+    return 0.3999999999977946lf + z * (0.2857142867248649lf + z * (0.22222204963535996lf + z * (
+        0.18183262071241504lf + z * (0.15321193027461033lf + z * 0.1472922684306634lf))));
+}
+
+/// (sin r - r) / r³, z = r² ≤ π²/16; coefficients.py.
+/// Error: 2^-57 of sin r.
+fn sin_tail(z: real) -> real {
+    return -0.16666666666666632lf + z * (0.00833333333332237lf + z * (-0.00019841269829771514lf + z * (
+        2.755731367876691e-06lf + z * (-2.505075597414067e-08lf + z * 1.5896667081298702e-10lf))));
+}
+
+/// (cos r - 1 + r²/2) / r⁴, z = r² ≤ π²/16; coefficients.py.
+/// Error: 2^-59 of cos r.
+fn cos_tail(z: real) -> real {
+    return 0.0416666666666666lf + z * (-0.0013888888888874066lf + z * (2.4801587289444146e-05lf + z * (
+        -2.755731434083461e-07lf + z * (2.0875721645778737e-09lf + z * -1.1359560402639843e-11lf))));
+}
+
+/// (arctan t - t) / t³, z = t² ≤ 1/253; coefficients.py.
+/// Error: 2^-61 of arctan t.
+fn atan_tail(z: real) -> real {
+    return -0.33333333333333154lf + z * (0.19999999999348494lf + z * (-0.14285713527008606lf + z * (
+        0.11110725366124007lf + z * -0.0900178831570892lf)));
+}
+
+/// log((1 + s)/(1 - s)) - 2 s, beside 2 s of 53 bits more.
+fn log_correction(s: Long) -> Long {
+    let z = long_times(s, s);
+    let t = long_sum(0.6666666666666666lf, z.hi * log_rest(z.hi));
+    // 2/3 in f64 falls short by 2^-54.6
+    return long_times(long_times(s, z), Long(t.hi, t.lo + 3.700743415417188e-17lf));
+}
+
+/// h · 2^e radians for the fraction h = high + low/2^32 of a quarter turn, high with its top bit set: the first 21
+/// bits of π/2 times 32 are exact.
+fn radians_of_turns(high: u32, low: u32, e: i32) -> real {
+    let h = f64(high);
+    let l = f64(low) * 2.3283064365386963e-10lf;
+    let r = opaque(h * 1.570796012878418lf, hidden_zero(h));
+    return scale(r + (l * 1.5707963267948966lf + h * 3.139164786504813e-07lf), e);
+}
+
+/// Beyond this magnitude e^x is 0 or infinite.
+const EXP_END: f32 = 800.0;

@@ -32,6 +32,12 @@ fn hidden_zero(seed: f32) -> u32 {
     return (odd * odd) & 4u;
 }
 
+/// A hidden zero for an operation on two numbers. One of them may be a constant, of which alone the compiler would know
+/// it; and both may be the same.
+fn hidden_zero_of(a: f32, b: f32) -> u32 {
+    return hidden_zero(bitcast<f32>((bitcast<u32>(a) << 1u) ^ bitcast<u32>(b)));
+}
+
 /// v itself, cut off from the expression that gave it.
 fn opaque(v: f32, zero: u32) -> f32 {
     return bitcast<f32>(bitcast<u32>(v) ^ zero);
@@ -86,7 +92,7 @@ fn real_to_f32(x: real) -> f32 {
 
 /// n exactly.
 fn real_from_i32(n: i32) -> real {
-    return quick_two_sum(f32(n - (n & 0xffff)), f32(n & 0xffff), hidden_zero(1.0));
+    return quick_two_sum(f32(n - (n & 0xffff)), f32(n & 0xffff), hidden_zero(f32(n)));
 }
 
 /// The number of the words (bits of hi, bits of lo).
@@ -170,7 +176,7 @@ fn with_sign(a: real, s: real) -> real {
 
 /// a + b. Error: 3 u² (JMP algorithm 6), also where the terms cancel.
 fn real_add(a: real, b: real) -> real {
-    let zero = hidden_zero(a.x);
+    let zero = hidden_zero_of(a.x, b.x);
     let s = two_sum(a.x, b.x, zero);
     let t = two_sum(a.y, b.y, zero);
     let v = quick_two_sum(s.x, opaque(s.y + t.x, zero), zero);
@@ -185,7 +191,7 @@ fn real_sub(a: real, b: real) -> real {
 
 /// a + b for a word b. Error: 2 u² (JMP algorithm 4).
 fn add32(a: real, b: f32) -> real {
-    let zero = hidden_zero(a.x);
+    let zero = hidden_zero_of(a.x, b);
     let s = two_sum(a.x, b, zero);
     let r = quick_two_sum(s.x, opaque(s.y + a.y, zero), zero);
     return select(r, vec2f(s.x, 0.0), pair_is_unbounded(s.x));
@@ -193,7 +199,7 @@ fn add32(a: real, b: f32) -> real {
 
 /// a b. Error: 5 u² (JMP algorithm 11).
 fn real_mul(a: real, b: real) -> real {
-    let zero = hidden_zero(a.x);
+    let zero = hidden_zero_of(a.x, b.x);
     let p = two_product(a.x, b.x, zero);
     let r = quick_two_sum(p.x, opaque(p.y + (a.x * b.y + a.y * b.x), zero), zero);
     return select(r, real_from_f32(p.x), pair_is_bare(p.x));
@@ -209,7 +215,7 @@ fn real_square(a: real) -> real {
 
 /// a b for a word b. Error: 3 u² (JMP algorithm 8).
 fn mul32(a: real, b: f32) -> real {
-    let zero = hidden_zero(a.x);
+    let zero = hidden_zero_of(a.x, b);
     let p = two_product(a.x, b, zero);
     let r = quick_two_sum(p.x, opaque(p.y + a.y * b, zero), zero);
     return select(r, real_from_f32(p.x), pair_is_bare(p.x));
@@ -217,7 +223,7 @@ fn mul32(a: real, b: f32) -> real {
 
 /// a / b. Error: 10 u² where the words' quotients are correctly rounded (after JMP algorithm 17).
 fn real_div(a: real, b: real) -> real {
-    let zero = hidden_zero(a.x);
+    let zero = hidden_zero_of(a.x, b.x);
     let q = opaque(a.x / b.x, zero);
     let p = two_product(q, b.x, zero);
     let rest = opaque(opaque(a.x - p.x, zero) - p.y, zero) + (a.y - q * b.y);
@@ -278,7 +284,7 @@ fn scale(a: real, n: i32) -> real {
     if abs(n) < 120 {
         return a * pair_power_of_two(n);
     }
-    let zero = vec2u(hidden_zero(a.x));
+    let zero = vec2u(hidden_zero_of(a.x, f32(n)));
     let all = clamp(n, -360, 360);
     let first = all / 3;
     let second = (all - first) / 2;
@@ -303,7 +309,7 @@ struct Long {
 
 /// a + b exactly, but for what is below 2^-90 of it.
 fn long_sum(a: real, b: real) -> Long {
-    let zero = hidden_zero(a.x);
+    let zero = hidden_zero_of(a.x, b.x);
     let s = two_sum(a.x, b.x, zero);
     let t = two_sum(a.y, b.y, zero);
     let u = two_sum(s.y, t.x, zero);
@@ -312,7 +318,7 @@ fn long_sum(a: real, b: real) -> Long {
 
 /// a b, but for what is below 2^-90 of it.
 fn long_product(a: real, b: real) -> Long {
-    let zero = hidden_zero(a.x);
+    let zero = hidden_zero_of(a.x, b.x);
     let p = two_product(a.x, b.x, zero);
     let q = two_product(a.x, b.y, zero);
     let r = two_product(a.y, b.x, zero);
@@ -357,7 +363,7 @@ fn pieces_of(a: real) -> Pieces {
 /// (high 2^32 + low) 2^e, rounded to 48 bits, for a high that has its top bit set.
 fn real_from_integer(high: u32, low: u32, e: i32) -> real {
     let next = ((high & 0xffu) << 16u) | (low >> 16u);
-    let v = quick_two_sum(f32(high >> 8u) * 16777216.0, f32(next + ((low >> 15u) & 1u)), hidden_zero(1.0));
+    let v = quick_two_sum(f32(high >> 8u) * 16777216.0, f32(next + ((low >> 15u) & 1u)), hidden_zero(f32(high)));
     return scale(v, e + 16);
 }
 
@@ -365,3 +371,74 @@ fn real_from_integer(high: u32, low: u32, e: i32) -> real {
 fn below_one() -> real {
     return vec2f(1.0, -3.5527137e-15);
 }
+
+/// c + p r for |p r| ≤ |c|, a step of Horner's rule; the words may overlap in a bit or two.
+fn pair_step(p: vec2f, r: real, hi: f32, lo: f32, zero: u32) -> vec2f {
+    let m = two_product(p.x, r.x, zero);
+    let s = quick_two_sum(hi, m.x, zero);
+    return vec2f(s.x, s.y + (lo + (m.y + (p.x * r.y + p.y * r.x))));
+}
+
+/// (e^r - 1 - r) / r² for |r| ≤ log(2)/2; coefficients.py. The terms that matter beyond f32 are pairs.
+/// Error: 2^-50 of e^r - 1.
+fn exp_tail(r: real) -> real {
+    let zero = hidden_zero(r.x);
+    let tail = 2.4801499e-05 + r.x * (2.7557116e-06 + r.x * (2.7628502e-07 + r.x * 2.5161661e-08));
+    var p = pair_step(vec2f(tail, 0.0), r, 0.0001984127, -1.2546697e-12, zero);
+    p = pair_step(p, r, 0.0013888889, -2.8847617e-11, zero);
+    p = pair_step(p, r, 0.008333334, -4.3465787e-10, zero);
+    p = pair_step(p, r, 0.041666668, -1.2418693e-09, zero);
+    p = pair_step(p, r, 0.16666667, -4.9670534e-09, zero);
+    return pair_step(p, r, 0.5, 6.554719e-16, zero);
+}
+
+/// (log((1 + s)/(1 - s)) - 2 s - 2 s³/3) / s⁵, z = s² ≤ 0.0295; coefficients.py.
+/// Error: 2^-48 of the logarithm.
+fn log_rest(z: real) -> real {
+    let zero = hidden_zero(z.x);
+    let tail = 0.222231 + z.x * (0.18131512 + z.x * 0.16733985);
+    let p = pair_step(vec2f(tail, 0.0), z, 0.2857142, 5.897346e-09, zero);
+    return pair_step(p, z, 0.4, -5.754414e-09, zero);
+}
+
+/// (sin r - r) / r³, z = r² ≤ π²/16; coefficients.py.
+/// Error: 2^-52 of sin r.
+fn sin_tail(z: real) -> real {
+    let zero = hidden_zero(z.x);
+    var p = pair_step(vec2f(-2.5050756e-08 + z.x * 1.5896667e-10, 0.0), z, 2.7557314e-06, -6.183883e-14, zero);
+    p = pair_step(p, z, -0.0001984127, 2.8405802e-12, zero);
+    p = pair_step(p, z, 0.008333334, -4.3462817e-10, zero);
+    return pair_step(p, z, -0.16666667, 4.967054e-09, zero);
+}
+
+/// (cos r - 1 + r²/2) / r⁴, z = r² ≤ π²/16; coefficients.py.
+/// Error: 2^-52 of cos r.
+fn cos_tail(z: real) -> real {
+    let zero = hidden_zero(z.x);
+    var p = pair_step(vec2f(-2.7555564e-07 + z.x * 2.0647513e-09, 0.0), z, 2.480158e-05, 5.8654367e-13, zero);
+    p = pair_step(p, z, -0.0013888889, 3.4696752e-11, zero);
+    return pair_step(p, z, 0.041666668, -1.2418282e-09, zero);
+}
+
+/// (arctan t - t) / t³, z = t² ≤ 1/253; coefficients.py.
+/// Error: 2^-50 of arctan t.
+fn atan_tail(z: real) -> real {
+    let zero = hidden_zero(z.x);
+    let p = pair_step(vec2f(-0.14285426 + z.x * 0.110239476, 0.0), z, 0.2, -6.7631363e-09, zero);
+    return pair_step(p, z, -0.33333334, 9.935646e-09, zero);
+}
+
+/// log((1 + s)/(1 - s)) - 2 s, beside 2 s of 48 bits more.
+fn log_correction(s: Long) -> Long {
+    let z = real_square(s.hi);
+    let t = real_add(lit(0.6666667, -1.9868216e-8, 0.0), real_mul(z, log_rest(z)));
+    return Long(real_mul(real_mul(s.hi, z), t), vec2f(0.0));
+}
+
+/// h · 2^e radians for the fraction h = high + low/2^32 of a quarter turn, high with its top bit set.
+fn radians_of_turns(high: u32, low: u32, e: i32) -> real {
+    return real_mul(real_from_integer(high, low, e - 32), lit(1.5707964, -4.371139e-08, 0.0));
+}
+
+/// Beyond this magnitude e^x is 0 or infinite.
+const EXP_END: f32 = 150.0;

@@ -205,6 +205,24 @@ impl<'a> Linker<'a> {
         Err(LinkError::Missing(name.to_owned()))
     }
 
+    /// The type of this name, copied from the first source that has it.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn type_named(&mut self, name: &str) -> Result<Handle<Type>, LinkError> {
+        for source in 0..self.sources.len() {
+            let module = self.sources[source];
+            let found = module
+                .types
+                .iter()
+                .find(|(_, ty)| ty.name.as_deref() == Some(name));
+            if let Some((handle, _)) = found {
+                return self.importers[source].ty(module, &mut self.out, handle);
+            }
+        }
+        Err(LinkError::Missing(name.to_owned()))
+    }
+
     /// The arguments and the result of a function, with types of the module that is being built.
     fn signature(&mut self, source: usize, body: &Function) -> Result<Function, LinkError> {
         let mut out = Function {

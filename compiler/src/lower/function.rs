@@ -102,7 +102,7 @@ pub fn lower(
         graph,
         types,
         format,
-        numbers: NumberTypes::insert(&mut linker.out.types, format),
+        numbers: NumberTypes::of(linker, format)?,
         wide: interface.wide,
         body: Body::new(interface.declaration),
         inputs: &interface.inputs,

@@ -1,8 +1,9 @@
 //! The number types of a module.
 
-use naga::{Handle, Scalar, Span, StructMember, Type, TypeInner, UniqueArena, VectorSize};
+use naga::{Handle, Scalar, Span, Type, TypeInner, UniqueArena, VectorSize};
 
 use super::Format;
+use crate::link::{LinkError, Linker};
 
 /// Handles of the types of single precision in a module.
 #[derive(Clone, Copy, Debug)]
@@ -43,36 +44,22 @@ pub struct NumberTypes {
 }
 
 impl NumberTypes {
-    /// Finds or adds the types.
-    pub fn insert(types: &mut UniqueArena<Type>, format: Format) -> Self {
-        let scalar = match format {
-            Format::Single => TypeInner::Scalar(Scalar::F32),
-            Format::Pair => vector(VectorSize::Bi),
-            Format::Double => TypeInner::Scalar(Scalar::F64),
-        };
-        let mut add = |name: Option<&str>, inner| {
-            let name = name.map(str::to_owned);
-            types.insert(Type { name, inner }, Span::UNDEFINED)
-        };
-        let real = add(None, scalar);
-        let complex = match format {
-            Format::Single => add(None, vector(VectorSize::Bi)),
-            // both formats take 8 bytes
-            Format::Pair | Format::Double => {
-                let members = [("re", 0), ("im", 8)].map(|(name, offset)| StructMember {
-                    name: Some(name.to_owned()),
-                    ty: real,
-                    binding: None,
-                    offset,
-                });
-                let inner = TypeInner::Struct {
-                    members: members.into(),
-                    span: 16,
-                };
-                add(Some("Complex"), inner)
-            }
-        };
-        Self { real, complex }
+    /// The types of single precision, or those that the wide library calls `real` and `Complex`.
+    ///
+    /// # Errors
+    /// The library is not among the linker's sources.
+    pub fn of(linker: &mut Linker, format: Format) -> Result<Self, LinkError> {
+        if format.is_wide() {
+            return Ok(Self {
+                real: linker.type_named("real")?,
+                complex: linker.type_named("Complex")?,
+            });
+        }
+        let types = NagaTypes::insert(&mut linker.out.types);
+        Ok(Self {
+            real: types.real,
+            complex: types.vec2,
+        })
     }
 }
 

@@ -116,7 +116,7 @@ impl Provider for Rows<'_> {
             return Ok(None);
         }
         let result = stub.result.as_ref().ok_or(LowerError::NoForm("rows"))?.ty;
-        let numbers = NumberTypes::insert(&mut linker.out.types, self.precision.format());
+        let numbers = NumberTypes::of(linker, self.precision.format())?;
         let mut parts = self.evaluation.columns.clone();
         parts.resize(MAX_RESULTS, Output::Zero(numbers.real));
         let interface = Interface {
