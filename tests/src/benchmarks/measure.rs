@@ -149,8 +149,7 @@ pub fn results(
     if !gpu.has(precision) {
         return Ok(None);
     }
-    let module =
-        EvalModule::new(formula, What::Value, precision).map_err(|e| format!("{e:?}"))?;
+    let module = EvalModule::new(formula, What::Value, precision).map_err(|e| format!("{e:?}"))?;
     let mut evaluator = GpuEvaluator::new(gpu, &module).map_err(|e| e.to_string())?;
     let rows: Vec<f64> = points
         .iter()
@@ -164,8 +163,7 @@ pub fn results(
 }
 
 fn reference(formula: &Formula, points: &[Sample]) -> Result<Vec<f64>, String> {
-    let mut evaluator =
-        Evaluator::new(formula, What::Value).map_err(|e| format!("{e:?}"))?;
+    let mut evaluator = Evaluator::new(formula, What::Value).map_err(|e| format!("{e:?}"))?;
     let mut out = [0.0];
     let value = |point: &Sample| {
         let args: Vec<f64> = point.args.iter().map(|&x| f64::from(x)).collect();

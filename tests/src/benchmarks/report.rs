@@ -8,7 +8,14 @@ use super::measure::{Loss, Row, Way};
 
 /// A word for each way, in the order of [`Way::ALL`]; `+` is with rewrites.
 pub const WORDS: [&str; 8] = [
-    "fast", "fast+", "accurate", "accurate+", "extended", "extended+", "double", "double+",
+    "fast",
+    "fast+",
+    "accurate",
+    "accurate+",
+    "extended",
+    "extended+",
+    "double",
+    "double+",
 ];
 
 /// How a table is written.
@@ -63,7 +70,11 @@ fn summaries<'r>(
 /// The summary tables: all, and those on which cancellation dominates.
 #[must_use]
 pub fn totals(rows: &[Row], markdown: bool) -> String {
-    let style = if markdown { Style::Markdown } else { Style::Text };
+    let style = if markdown {
+        Style::Markdown
+    } else {
+        Style::Text
+    };
     let mut out = String::new();
     let cancelling = rows.iter().filter(|r| r.benchmark.cancels());
     let sets: [(&str, Vec<&Row>); 2] = [
@@ -174,7 +185,13 @@ fn table(lines: &[Vec<String>], style: Style) -> String {
     let mut out = String::new();
     if style == Style::Text {
         let columns = lines.iter().map(Vec::len).max().unwrap_or(0);
-        let width = |k: usize| lines.iter().filter_map(|l| l.get(k)).map(|s| s.chars().count()).max();
+        let width = |k: usize| {
+            lines
+                .iter()
+                .filter_map(|l| l.get(k))
+                .map(|s| s.chars().count())
+                .max()
+        };
         let widths: Vec<usize> = (0..columns).map(|k| width(k).unwrap_or(0)).collect();
         for line in lines {
             let cells: Vec<String> = line

@@ -73,9 +73,8 @@ fn run(options: &Options) -> Result<(), String> {
         fits.extend(some);
         unfit.extend(others);
     }
-    let wanted = |b: &&Benchmark| {
-        b.id.contains(&options.only) && (!options.cancelling || b.cancels())
-    };
+    let wanted =
+        |b: &&Benchmark| b.id.contains(&options.only) && (!options.cancelling || b.cancels());
     let mut rows = Vec::new();
     let mut refused = Vec::new();
     for benchmark in fits.iter().filter(wanted) {
