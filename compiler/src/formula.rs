@@ -1,10 +1,13 @@
 //! A formula that has been checked: what it takes, what it gives, and its IR.
 
+use std::borrow::Cow;
+
 use pullback_grammar::Span;
 use smallvec::SmallVec;
 
 use crate::check::Value;
 use crate::ir::{Graph, Id, Op, Ty};
+use crate::stable::{Phase, Rewrites, stabilise};
 use crate::types::Type;
 
 /// One argument of a formula.
@@ -31,9 +34,37 @@ pub struct Formula {
     pub ty: Type,
     /// Where it stands in the text.
     pub span: Span,
+    /// Which stability rewrites are done where it is compiled for the GPU. The graph itself is as written.
+    pub rewrites: Rewrites,
 }
 
 impl Formula {
+    /// The same formula with other stability rewrites.
+    #[must_use]
+    pub fn with_rewrites(mut self, rewrites: Rewrites) -> Self {
+        self.rewrites = rewrites;
+        self
+    }
+
+    /// The formula with those rewrites done that come before it is differentiated.
+    #[must_use]
+    pub fn stabilised(&self) -> Cow<'_, Self> {
+        if !self.rewrites.any() {
+            return Cow::Borrowed(self);
+        }
+        let stable = stabilise(&self.graph, &self.value, self.rewrites, Phase::Early);
+        if stable.applied.is_empty() {
+            return Cow::Borrowed(self);
+        }
+        Cow::Owned(Self {
+            name: self.name.clone(),
+            inputs: self.inputs.clone(),
+            graph: stable.graph,
+            value: stable.roots.into(),
+            ..*self
+        })
+    }
+
     /// The leaf of the k-th scalar input, by IR type; added to the graph where the formula does not use it.
     pub fn leaf(graph: &mut Graph, k: usize, ty: Ty) -> Id {
         graph.leaf(Op::Input(u16::try_from(k).unwrap_or(u16::MAX)), ty)

@@ -31,9 +31,12 @@ pub mod program;
 pub mod reference;
 pub mod scene;
 mod simplify;
+pub mod stable;
 pub mod table;
 pub mod types;
 
 pub use emit::{EmitWhat, Target};
 pub use module::{EvalModule, Evaluator, SceneModule, What};
-pub use program::{Compilation, ParamInfo, Picture, Program, SettingValue, compile, compile_bytes};
+pub use program::{
+    Compilation, ParamInfo, Picture, Program, SettingValue, compile, compile_bytes, compile_function,
+};

@@ -3,6 +3,8 @@
 
 #[cfg(feature = "gpu")]
 pub mod accuracy;
+#[cfg(feature = "gpu")]
+pub mod benchmarks;
 pub mod calculus;
 pub mod corpus;
 #[cfg(feature = "gpu")]

@@ -11,7 +11,7 @@ use crate::formula::{Formula, scalar_types};
 use crate::ir::Op;
 use crate::link::{Linker, number_module};
 use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
-use crate::module::{Evaluation, ModuleError, What, evaluation};
+use crate::module::{Evaluation, ModuleError, What, stable_evaluation};
 use crate::numeral::Numeral;
 use crate::program::{Picture, Program};
 use crate::types::Type as LanguageType;
@@ -34,7 +34,7 @@ pub fn standalone(
     target: Target,
 ) -> Result<(Module, ModuleInfo, String), ModuleError> {
     let formula = &picture.formula;
-    let evaluation = evaluation(formula, what)?;
+    let evaluation = stable_evaluation(formula, what)?;
     let mut linker = Linker::new(vec![number_module(precision.format())]);
     let types = NagaTypes::insert(&mut linker.out.types);
     let arguments = arguments(program, formula, &evaluation, types);

@@ -4,6 +4,7 @@
 
 mod cost;
 mod graph;
+mod infix;
 mod loops;
 mod merge;
 mod op;
@@ -17,6 +18,7 @@ mod verify;
 
 pub use cost::{Cost, cost};
 pub use graph::{Graph, Id, Node, OverBudget};
+pub use infix::{LeafNames, to_infix};
 pub use loops::{Loop, State};
 pub use merge::merge_loops;
 pub use op::{Binder, Op, Prim, Ty};

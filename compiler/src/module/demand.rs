@@ -7,6 +7,7 @@ use crate::derive::{ComplexVariable, forward, gradient, jet};
 use crate::formula::Formula;
 use crate::ir::{Graph, Id, Ty};
 use crate::link::{Linker, Provider};
+use crate::stable::finish;
 use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
 
 /// Names of the stubs that are filled from a formula.
@@ -53,7 +54,8 @@ impl Provider for Demand<'_> {
             precision: self.precision,
             wide: false,
         };
-        lower(&answer.graph, &answer.roots, interface, linker).map(Some)
+        let (graph, roots) = finish(answer.graph, answer.roots, self.formula.rewrites);
+        lower(&graph, &roots, interface, linker).map(Some)
     }
 }
 
@@ -73,7 +75,8 @@ pub fn uniforms(
 
 impl Demand<'_> {
     fn graph(&self) -> (Graph, Vec<Id>) {
-        self.formula.graph.compacted(&self.formula.value)
+        let formula = self.formula.stabilised();
+        formula.graph.compacted(&formula.value)
     }
 
     /// The stub's one argument is a point of space, or of the plane as seen from the view's centre: a complex input is
@@ -165,9 +168,10 @@ impl Demand<'_> {
             .chain([Argument::Whole(2)])
             .collect();
         let t = Formula::leaf(&mut graph, 6, Ty::Real);
+        let formula = self.formula.stabilised();
         let roots = substitute(
-            &self.formula.graph,
-            &self.formula.value,
+            &formula.graph,
+            &formula.value,
             &mut graph,
             |g, k| {
                 let k = usize::from(k);

@@ -5,6 +5,7 @@ use crate::derive::{ComplexVariable, forward, gradient, jet};
 use crate::formula::{Formula, column_names};
 use crate::ir::{Graph, Id, Ty};
 use crate::lower::{LowerError, Output};
+use crate::stable::finish;
 use crate::types::Type;
 
 /// What is computed at a point.
@@ -60,6 +61,16 @@ pub fn evaluation(formula: &Formula, what: What) -> Result<Evaluation, ModuleErr
         What::Hessian => out.hessian(formula, &roots, &value_names)?,
         What::Derivative => out.derivative(formula, &roots)?,
     }
+    Ok(out)
+}
+
+/// [`evaluation`] with the formula's stability rewrites: what is compiled for the GPU.
+///
+/// # Errors
+/// As [`evaluation`].
+pub fn stable_evaluation(formula: &Formula, what: What) -> Result<Evaluation, ModuleError> {
+    let mut out = evaluation(&formula.stabilised(), what)?;
+    (out.graph, out.roots) = finish(out.graph, out.roots, formula.rewrites);
     Ok(out)
 }
 

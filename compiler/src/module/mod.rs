@@ -7,7 +7,7 @@ mod scene;
 mod substitute;
 
 pub use demand::DEMANDS;
-pub use evaluation::{Evaluation, What, evaluation};
+pub use evaluation::{Evaluation, What, evaluation, stable_evaluation};
 pub use rows::{EvalModule, Evaluator, MAX_COLUMNS, MAX_RESULTS};
 pub use scene::SceneModule;
 

@@ -6,7 +6,7 @@ use naga::valid::ModuleInfo;
 use naga::{Function, Module};
 
 use super::demand::uniforms;
-use super::evaluation::{Evaluation, What, evaluation};
+use super::evaluation::{Evaluation, What, evaluation, stable_evaluation};
 use super::{ModuleError, validate};
 use crate::eval::{Leaves, Tape};
 use crate::formula::Formula;
@@ -70,7 +70,7 @@ impl EvalModule {
     /// # Errors
     /// It makes no sense for the formula, has too many columns, or cannot be computed on the GPU.
     pub fn new(formula: &Formula, what: What, precision: Precision) -> Result<Self, ModuleError> {
-        let evaluation = evaluation(formula, what)?;
+        let evaluation = stable_evaluation(formula, what)?;
         let inputs = formula.columns();
         if inputs.len() > MAX_COLUMNS || evaluation.columns.len() > MAX_RESULTS {
             return Err(ModuleError::Lower(LowerError::Demand(format!(

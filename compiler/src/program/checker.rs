@@ -31,6 +31,23 @@ pub(super) struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
+    /// A checker of a file whose names are collected.
+    pub(super) fn new(
+        file: &'a File,
+        symbols: &'a Symbols<'a>,
+        diagnostics: Vec<Diagnostic>,
+    ) -> Self {
+        Self {
+            file,
+            symbols,
+            diagnostics,
+            called: FxHashSet::default(),
+            signatures: FxHashMap::default(),
+            constants: FxHashMap::default(),
+            ranges: Vec::new(),
+        }
+    }
+
     pub(super) fn builder(&self) -> Builder<'a> {
         Builder::new(self.file, self.symbols).with_ranges(&self.ranges)
     }
@@ -109,12 +126,8 @@ impl<'a> Checker<'a> {
             Item::Formula(formula) => Some(Subject::Formula(formula.body)),
             _ => None,
         });
-        let named = self.symbols.functions.get("f").copied();
-        let last = file.items.iter().rev().find_map(|item| match item {
-            Item::Function(function) => Some(function),
-            _ => None,
-        });
-        let Some(subject) = formula.or(named.or(last).map(Subject::Function)) else {
+        let function = self.default_function().map(Subject::Function);
+        let Some(subject) = formula.or(function) else {
             if !self.diagnostics.iter().any(Diagnostic::is_error) {
                 self.diagnostics.push(
                     Diagnostic::error(

@@ -1,6 +1,7 @@
 //! A whole program: its parameters and the pictures that it shows.
 
 mod checker;
+mod function;
 mod outline;
 mod params;
 mod settings;
@@ -10,12 +11,13 @@ mod unused;
 use crate::check::{Symbols, check_names, is_builtin_function};
 use crate::formula::Formula;
 use crate::scene::{Scene, SettingKind, SettingSpec};
+use crate::stable::Rewrites;
 use checker::Checker;
+pub use function::compile_function;
 use glam::DVec3;
 pub use outline::{ConstantInfo, FunctionInfo, MAX_SIGNATURES, Outline, Signature};
 use pullback_grammar::diagnostic::limit;
 use pullback_grammar::{Diagnostic, Span};
-use rustc_hash::{FxHashMap, FxHashSet};
 pub use unused::MAX_UNUSED;
 
 /// A parameter: a number that can change without compiling again.
@@ -93,6 +95,15 @@ impl Program {
         &self.params
     }
 
+    /// The same program with other stability rewrites in all its formulas.
+    #[must_use]
+    pub fn with_rewrites(mut self, rewrites: Rewrites) -> Self {
+        for picture in &mut self.pictures {
+            picture.formula.rewrites = rewrites;
+        }
+        self
+    }
+
     /// One picture for each `show`, or the default one. Never empty.
     #[must_use]
     pub fn pictures(&self) -> &[Picture] {
@@ -133,15 +144,7 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
     let in_order = |d: &Diagnostic| d.span;
     diagnostics.sort_by_key(in_order);
     limit(&mut diagnostics);
-    let mut checker = Checker {
-        file,
-        symbols: &symbols,
-        diagnostics,
-        called: FxHashSet::default(),
-        signatures: FxHashMap::default(),
-        constants: FxHashMap::default(),
-        ranges: Vec::new(),
-    };
+    let mut checker = Checker::new(file, &symbols, diagnostics);
     let params = checker.params();
     let pictures = checker.pictures();
     checker.unused_functions();

@@ -74,6 +74,17 @@ impl<'a> Checker<'a> {
             self.wrong_inputs(subject, space, span);
             return None;
         };
+        self.formula_of(subject, &declared, types, span)
+    }
+
+    /// Builds a function or formula with inputs of these names and types.
+    pub(super) fn formula_of(
+        &mut self,
+        subject: Subject<'a>,
+        declared: &[(&'a str, Option<Type>)],
+        types: Vec<Type>,
+        span: Span,
+    ) -> Option<Formula> {
         let mut builder = self.builder();
         let mut values = Vec::new();
         let mut first = 0;
@@ -131,6 +142,7 @@ impl<'a> Checker<'a> {
             graph: builder.graph,
             ty,
             span,
+            rewrites: crate::stable::Rewrites::ON,
         })
     }
 

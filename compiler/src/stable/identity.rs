@@ -1,0 +1,272 @@
+//! Closed identities of one operation with its operands.
+
+use smallvec::SmallVec;
+
+use super::guard::is_real;
+use super::pass::{Pass, only_atom};
+use super::polynomial::{Expand, Monomial, Polynomial, build, build_monomial};
+use super::rule::Rule;
+use crate::ir::{Graph, Id, Prim};
+
+impl Pass {
+    /// A better form of an operation that is no sum, where there is one.
+    pub(super) fn identity(&mut self, g: &mut Graph, prim: Prim, id: Id) -> Option<Id> {
+        let args: SmallVec<[Id; 3]> = g.node(id).args.clone();
+        self.inputs_too = false;
+        match (prim, args.as_slice()) {
+            (Prim::Sqrt, &[a]) => self.hypot(g, a),
+            (Prim::Log, &[a]) => self.log_of(g, a),
+            (Prim::Mul, &[a, b]) => {
+                let product = self.exp_product(g, a, b, 1.0);
+                product.or_else(|| self.constants(g, Prim::Mul, a, b))
+            }
+            (Prim::Div, &[a, b]) => {
+                let quotient = self.exp_product(g, a, b, -1.0);
+                let quotient = quotient.or_else(|| self.exp_ratio(g, a, b));
+                let quotient = quotient.or_else(|| self.tan_half(g, a, b));
+                quotient.or_else(|| self.constants(g, Prim::Div, a, b))
+            }
+            (Prim::Pow, &[base, exponent]) => self.compound_power(g, id, base, exponent),
+            _ => None,
+        }
+    }
+
+    /// √(a² + b² + c²), √(a² + b²), √(a²)
+    fn hypot(&mut self, g: &mut Graph, a: Id) -> Option<Id> {
+        if !is_real(g, a) || !self.on(Rule::Hypot) {
+            return None;
+        }
+        let p = self.polynomial(g, a, Expand::Constants)?;
+        if p.terms.is_empty() || p.terms.len() > 3 || p.cancelled > 0 || p.constant().is_some() {
+            return None;
+        }
+        let mut sides: SmallVec<[Id; 3]> = SmallVec::new();
+        for (monomial, value) in &p.terms {
+            let root = value.sqrt();
+            let even = monomial.iter().all(|(_, power)| power % 2 == 0);
+            if !even || root * root != *value || root.mul_add(root, -value) != 0.0 {
+                return None;
+            }
+            let half: Monomial = monomial.iter().map(|&(atom, p)| (atom, p / 2)).collect();
+            let side = match build_monomial(g, &half) {
+                Some(product) => {
+                    let root = g.real(root);
+                    g.mul(root, product)
+                }
+                None => g.real(root),
+            };
+            sides.push(side);
+        }
+        let new = match sides.as_slice() {
+            [one] => g.apply(Prim::Abs, &[*one]),
+            [_, _] => g.apply(Prim::Hypot, &sides),
+            _ => g.apply(Prim::Hypot3, &sides),
+        };
+        self.by(Rule::Hypot, new)
+    }
+
+    fn log_of(&mut self, g: &mut Graph, a: Id) -> Option<Id> {
+        let found = match self.view(g, a) {
+            (Some(Prim::Abs), &[z]) => self.log_of_size(g, z),
+            (Some(Prim::Exp), &[x]) if is_real(g, x) && self.on(Rule::LogPower) => {
+                self.by(Rule::LogPower, x)
+            }
+            (Some(Prim::PowInt(n)), &[x])
+                if n % 2 == 0 && is_real(g, x) && self.on(Rule::LogPower) =>
+            {
+                let new = Self::times_log(g, f64::from(n), x);
+                self.by(Rule::LogPower, new)
+            }
+            (Some(Prim::Div), &[n, d]) => self.log_of_quotient(g, n, d),
+            _ => None,
+        };
+        let found = found.or_else(|| self.inverse_hyperbolic(g, a));
+        found.or_else(|| {
+            if !self.on(Rule::Log1p) {
+                return None;
+            }
+            let rest = self.minus_one(g, a)?;
+            let new = g.apply(Prim::Log1p, &[rest]);
+            self.by(Rule::Log1p, new)
+        })
+    }
+
+    /// log|z|
+    fn log_of_size(&mut self, g: &mut Graph, z: Id) -> Option<Id> {
+        if self.on(Rule::LogPower) {
+            match self.view(g, z) {
+                (Some(Prim::PowInt(n)), &[x]) => {
+                    let new = if is_real(g, x) {
+                        Self::times_log(g, f64::from(n), x)
+                    } else {
+                        let log = g.apply(Prim::Log, &[x]);
+                        let re = g.apply(Prim::Re, &[log]);
+                        super::guard::scaled(g, f64::from(n), re)
+                    };
+                    return self.by(Rule::LogPower, new);
+                }
+                (Some(Prim::Exp), &[x]) => {
+                    let new = g.apply(Prim::Re, &[x]);
+                    return self.by(Rule::LogPower, new);
+                }
+                _ => {}
+            }
+        }
+        if is_real(g, z) || !self.on(Rule::LogAbs) {
+            return None;
+        }
+        let log = match self.minus_one(g, z) {
+            Some(rest) if self.on(Rule::Log1p) => g.apply(Prim::Log1p, &[rest]),
+            _ => g.apply(Prim::Log, &[z]),
+        };
+        let new = g.apply(Prim::Re, &[log]);
+        self.by(Rule::LogAbs, new)
+    }
+
+    /// log(a/b) = log1p((a - b)/b)
+    fn log_of_quotient(&mut self, g: &mut Graph, a: Id, b: Id) -> Option<Id> {
+        if !is_real(g, a) || !is_real(g, b) || !self.on(Rule::LogQuotient) {
+            return None;
+        }
+        let difference = self.difference(g, a, b, 4)?;
+        let quotient = g.div(difference, b);
+        let new = g.apply(Prim::Log1p, &[quotient]);
+        self.by(Rule::LogQuotient, new)
+    }
+
+    /// log(x + √(x² ± 1))
+    fn inverse_hyperbolic(&mut self, g: &mut Graph, a: Id) -> Option<Id> {
+        if !is_real(g, a) || !self.on(Rule::Asinh) {
+            return None;
+        }
+        let p = self.polynomial(g, a, Expand::Constants)?;
+        let [(x, one), (y, other)] = p.terms.as_slice() else {
+            return None;
+        };
+        if one.to_bits() != 1.0_f64.to_bits() || other.to_bits() != 1.0_f64.to_bits() {
+            return None;
+        }
+        for (x, root) in [(x, y), (y, x)] {
+            let Some(inner) =
+                only_atom(root).and_then(|r| self.argument(g, r, Prim::Sqrt))
+            else {
+                continue;
+            };
+            let mut square = Polynomial::default();
+            square.terms.push((x.clone(), 1.0));
+            let square = square.mul(&square)?;
+            let rest = self.polynomial(g, inner, Expand::Constants)?.add(&square, -1.0)?;
+            let f = match rest.constant() {
+                Some(1.0) => Prim::Asinh,
+                Some(-1.0) => Prim::Acosh,
+                _ => continue,
+            };
+            let x = build_monomial(g, x)?;
+            let new = g.apply(f, &[x]);
+            return self.by(Rule::Asinh, new);
+        }
+        None
+    }
+
+    /// exp a · exp b, or exp a / exp b, where terms of the exponents cancel.
+    fn exp_product(&mut self, g: &mut Graph, a: Id, b: Id, sign: f64) -> Option<Id> {
+        if !self.on(Rule::ExpProduct) || !self.on(Rule::Cancel) {
+            return None;
+        }
+        let (a, b) = (
+            self.argument(g, a, Prim::Exp)?,
+            self.argument(g, b, Prim::Exp)?,
+        );
+        let (p, q) = (
+            self.polynomial(g, a, Expand::Constants)?,
+            self.polynomial(g, b, Expand::Constants)?,
+        );
+        let sum = p.add(&q, sign)?;
+        if sum.lost.is_empty() {
+            return None;
+        }
+        self.lose(&sum);
+        let exponent = build(g, &sum.terms);
+        let new = g.apply(Prim::Exp, &[exponent]);
+        self.by(Rule::ExpProduct, new)
+    }
+
+    /// exp a/(exp a - 1) = -1/expm1(-a)
+    fn exp_ratio(&mut self, g: &mut Graph, n: Id, d: Id) -> Option<Id> {
+        let a = self.argument(g, n, Prim::Exp)?;
+        if !is_real(g, a) || !self.on(Rule::ExpRatio) || !self.on(Rule::Expm1) {
+            return None;
+        }
+        // the divisor has been rewritten before
+        let node = g.node(d);
+        if node.op != crate::ir::Op::Apply(Prim::Expm1) || node.args[0] != a {
+            return None;
+        }
+        let minus = g.neg(a);
+        let below = g.apply(Prim::Expm1, &[minus]);
+        let one = g.real(-1.0);
+        let new = g.div(one, below);
+        self.by(Rule::ExpRatio, new)
+    }
+
+    /// (1 - cos a)/sin a = tan(a/2)
+    fn tan_half(&mut self, g: &mut Graph, n: Id, d: Id) -> Option<Id> {
+        let a = self.argument(g, d, Prim::Sin)?;
+        if !is_real(g, a) || !self.on(Rule::TanHalf) {
+            return None;
+        }
+        let cos = g.find_unary(Prim::Cos, a)?;
+        let p = self.polynomial(g, n, Expand::Constants)?;
+        let sign = |wanted: f64| {
+            let expected = Polynomial::one().add(&Polynomial::atom(cos), -1.0);
+            let expected = expected.and_then(|e| Polynomial::default().add(&e, wanted));
+            expected
+                .and_then(|e| e.add(&p, -1.0))
+                .is_some_and(|rest| rest.terms.is_empty())
+        };
+        let factor = [1.0, -1.0].into_iter().find(|&s| sign(s))?;
+        let half = super::guard::scaled(g, 0.5, a);
+        let tan = g.apply(Prim::Tan, &[half]);
+        let new = super::guard::scaled(g, factor, tan);
+        self.by(Rule::TanHalf, new)
+    }
+
+    /// Two constant factors made one.
+    fn constants(&mut self, g: &mut Graph, prim: Prim, a: Id, b: Id) -> Option<Id> {
+        if !self.on(Rule::Constants) {
+            return None;
+        }
+        let (outer, inner) = match (prim, g.as_real(a), g.as_real(b)) {
+            (Prim::Mul, Some(c), None) => (c, b),
+            (Prim::Mul, None, Some(c)) => (c, a),
+            (Prim::Div, None, Some(c)) if c.recip() * c == 1.0 && is_exact_inverse(c) => {
+                (c.recip(), a)
+            }
+            _ => return None,
+        };
+        let node = g.node(inner);
+        if node.op != crate::ir::Op::Apply(Prim::Mul) {
+            return None;
+        }
+        let &[x, y] = node.args.as_slice() else {
+            return None;
+        };
+        let (c, rest) = match (g.as_real(x), g.as_real(y)) {
+            (Some(c), None) => (c, y),
+            (None, Some(c)) => (c, x),
+            _ => return None,
+        };
+        let product = outer * c;
+        let sane = |c: f64| c.is_finite() && (1e-30..1e30).contains(&c.abs());
+        if !sane(product) || !sane(c) || !sane(outer) || outer.mul_add(c, -product) != 0.0 {
+            return None;
+        }
+        let new = super::guard::scaled(g, product, rest);
+        self.by(Rule::Constants, new)
+    }
+}
+
+/// Whether 1/c is exact: c is a power of two.
+fn is_exact_inverse(c: f64) -> bool {
+    c.is_normal() && c.to_bits() & ((1 << 52) - 1) == 0
+}

@@ -1,0 +1,351 @@
+//! Sums: terms that cancel, and pairs of terms whose difference has a better form.
+
+use smallvec::SmallVec;
+
+use super::Phase;
+use super::guard::is_real;
+use super::pass::{Pass, only_atom};
+use super::polynomial::{
+    Expand, Monomial, Polynomial, build, build_monomial, build_term, monomial_product,
+};
+use super::rule::Rule;
+use crate::ir::{Graph, Id, Prim};
+
+/// Most terms of a sum whose pairs are looked at.
+const MAX_PAIRED: usize = 8;
+/// Deepest nesting of differences of arguments.
+const MAX_DEPTH: usize = 8;
+
+type Term = (Monomial, f64);
+
+impl Pass {
+    /// A better form of a sum, where there is one.
+    pub(super) fn sum_node(&mut self, g: &mut Graph, id: Id) -> Option<Id> {
+        let p = self.polynomial(g, id, Expand::Constants)?;
+        if p.terms.len() < 2 && p.cancelled == 0 {
+            return None;
+        }
+        self.inputs_too = false;
+        let strict = self.improved(g, p.clone(), MAX_DEPTH);
+        if strict.is_some() || self.phase == Phase::Early {
+            return strict;
+        }
+        self.inputs_too = true;
+        let found = self.improved(g, p, MAX_DEPTH);
+        self.inputs_too = false;
+        found
+    }
+
+    /// u - v, where it is simpler than that.
+    pub(super) fn difference(&mut self, g: &mut Graph, u: Id, v: Id, depth: usize) -> Option<Id> {
+        let depth = depth.checked_sub(1)?;
+        let (p, q) = (
+            self.polynomial(g, u, Expand::Constants)?,
+            self.polynomial(g, v, Expand::Constants)?,
+        );
+        self.improved(g, p.add(&q, -1.0)?, depth)
+    }
+
+    /// factor · (u + v), simplified where that is possible.
+    pub(super) fn total(&mut self, g: &mut Graph, factor: f64, u: Id, v: Id) -> Option<Id> {
+        let (p, q) = (
+            self.polynomial(g, u, Expand::Constants)?,
+            self.polynomial(g, v, Expand::Constants)?,
+        );
+        let p = Polynomial::default().add(&p.add(&q, 1.0)?, factor)?;
+        self.lose(&p);
+        Some(build(g, &p.terms))
+    }
+
+    /// The polynomial as nodes, in a better form where there is one.
+    pub(super) fn built(&mut self, g: &mut Graph, p: Polynomial, depth: usize) -> Id {
+        let terms = p.terms.clone();
+        match self.improved(g, p, depth) {
+            Some(id) => id,
+            None => build(g, &terms),
+        }
+    }
+
+    /// A better form of a sum of terms, where there is one: something cancels, or a pair of terms has one.
+    pub(super) fn improved(&mut self, g: &mut Graph, p: Polynomial, depth: usize) -> Option<Id> {
+        let (used, lost) = self.marks();
+        let found = self.improve(g, p, depth);
+        if found.is_none() {
+            self.reset(used, lost);
+        }
+        found
+    }
+
+    fn improve(&mut self, g: &mut Graph, mut p: Polynomial, depth: usize) -> Option<Id> {
+        let mut changed = false;
+        if p.cancelled > 0 {
+            if !self.on(Rule::Cancel) {
+                return None;
+            }
+            self.lose(&p);
+            self.by(Rule::Cancel, ())?;
+            changed = true;
+        }
+        while p.terms.len() > 1 && p.terms.len() <= MAX_PAIRED && depth > 0 {
+            if let Some(rest) = self.remainder(g, &p) {
+                p = rest;
+                changed = true;
+                continue;
+            }
+            let Some((rest, node)) = self.any_pair(g, &p.terms, depth) else {
+                break;
+            };
+            let mut next = Polynomial::default();
+            next.terms.extend(rest);
+            p = next.add(&self.polynomial(g, node, Expand::Constants)?, 1.0)?;
+            self.lose(&p);
+            changed = true;
+        }
+        changed.then(|| build(g, &p.terms))
+    }
+
+    /// The first pair of terms that has a better form: the other terms, and that form.
+    fn any_pair(
+        &mut self,
+        g: &mut Graph,
+        terms: &[Term],
+        depth: usize,
+    ) -> Option<(SmallVec<[Term; 8]>, Id)> {
+        for i in 0..terms.len() {
+            for j in i + 1..terms.len() {
+                self.patience = self.patience.checked_sub(1)?;
+                let (used, lost) = self.marks();
+                let Some(node) = self.pair(g, &terms[i], &terms[j], depth) else {
+                    self.reset(used, lost);
+                    continue;
+                };
+                let others = terms.iter().enumerate();
+                let others = others.filter(|(k, _)| *k != i && *k != j);
+                return Some((others.map(|(_, t)| t.clone()).collect(), node));
+            }
+        }
+        None
+    }
+
+    /// A better form of the sum of two terms.
+    fn pair(&mut self, g: &mut Graph, first: &Term, second: &Term, depth: usize) -> Option<Id> {
+        let common = common(&first.0, &second.0);
+        let rest = |m: &Monomial| monomial_product(m, &inverse(&common));
+        let (a, b) = (rest(&first.0)?, rest(&second.0)?);
+        for ((a, x), (b, y)) in [((&a, first.1), (&b, second.1)), ((&b, second.1), (&a, first.1))] {
+            // x a + y b = x (a - k b)
+            let k = -y / x;
+            if a.is_empty() || !k.is_finite() || k * x != -y || x.mul_add(k, y) != 0.0 {
+                continue;
+            }
+            let Some(difference) = self.scaled_difference(g, a, k, b, depth) else {
+                continue;
+            };
+            if common.is_empty() {
+                let x = g.real(x);
+                return Some(g.mul(x, difference));
+            }
+            if !self.on(Rule::Factor) {
+                return None;
+            }
+            let factor = build_term(g, &common, x);
+            let product = g.mul(factor, difference);
+            return self.by(Rule::Factor, product);
+        }
+        None
+    }
+
+    /// a - k b of two monomials without a common factor, where there is a better form.
+    fn scaled_difference(
+        &mut self,
+        g: &mut Graph,
+        a: &Monomial,
+        k: f64,
+        b: &Monomial,
+        depth: usize,
+    ) -> Option<Id> {
+        let attempts = [
+            Self::by_function,
+            Self::by_conjugate,
+            Self::by_squares,
+            Self::by_cubes,
+            Self::by_quotient,
+            Self::by_product,
+        ];
+        for attempt in attempts {
+            let (used, lost) = self.marks();
+            let found = attempt(self, g, a, k, b, depth);
+            if found.is_some() {
+                return found;
+            }
+            self.reset(used, lost);
+        }
+        None
+    }
+
+    /// a² - b² = (a - b)(a + b)
+    fn by_squares(
+        &mut self,
+        g: &mut Graph,
+        a: &Monomial,
+        k: f64,
+        b: &Monomial,
+        depth: usize,
+    ) -> Option<Id> {
+        if k < 0.0 {
+            return self.by_complex_squares(g, a, k, b);
+        }
+        let (u, v) = self.roots(g, a, k, b, 2)?;
+        if let Some(found) = self.pythagoras(g, u, v) {
+            return Some(found);
+        }
+        if !self.on(Rule::Squares) {
+            return None;
+        }
+        if let Some(simple) = self.difference(g, u, v, depth) {
+            let sum = self.total(g, 1.0, u, v)?;
+            let product = g.mul(simple, sum);
+            return self.by(Rule::Squares, product);
+        }
+        let real = is_real(g, u) && is_real(g, v);
+        let size = |g: &mut Graph, id| if real { g.apply(Prim::Abs, &[id]) } else { id };
+        let (u, v) = (size(g, u), size(g, v));
+        let (difference, sum) = (g.sub(u, v), g.add(u, v));
+        let product = g.mul(difference, sum);
+        self.by(Rule::Squares, product)
+    }
+
+    /// z² + c² = (z - c i)(z + c i)
+    fn by_complex_squares(
+        &mut self,
+        g: &mut Graph,
+        a: &Monomial,
+        k: f64,
+        b: &Monomial,
+    ) -> Option<Id> {
+        if !b.is_empty() || !self.on(Rule::ComplexSquares) {
+            return None;
+        }
+        let (z, c) = self.roots(g, a, -k, b, 2)?;
+        let c = g.as_real(c)?;
+        if is_real(g, z) {
+            return None;
+        }
+        let (plus, minus) = (g.complex(0.0, c), g.complex(0.0, -c));
+        let (left, right) = (g.add(z, minus), g.add(z, plus));
+        let product = g.mul(left, right);
+        self.by(Rule::ComplexSquares, product)
+    }
+
+    /// a³ - b³ = (a - b)(a² + a b + b²)
+    fn by_cubes(
+        &mut self,
+        g: &mut Graph,
+        a: &Monomial,
+        k: f64,
+        b: &Monomial,
+        depth: usize,
+    ) -> Option<Id> {
+        if !self.on(Rule::Cubes) {
+            return None;
+        }
+        let (u, v) = self.roots(g, a, k, b, 3)?;
+        let real = is_real(g, u) && is_real(g, v);
+        let difference = match self.difference(g, u, v, depth) {
+            Some(simple) => simple,
+            None if real => g.sub(u, v),
+            None => return None,
+        };
+        let sum = sum_of_three_products(g, u, v);
+        let product = g.mul(difference, sum);
+        self.by(Rule::Cubes, product)
+    }
+
+    /// u and v with uⁿ = a and vⁿ = k b, where both are monomials.
+    fn roots(
+        &self,
+        g: &mut Graph,
+        a: &Monomial,
+        k: f64,
+        b: &Monomial,
+        n: i32,
+    ) -> Option<(Id, Id)> {
+        if a.iter().chain(b).any(|(_, power)| power % n != 0) {
+            return None;
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "only small numbers are roots here")]
+        let root = match n {
+            2 => k.sqrt(),
+            _ => k.cbrt().round(),
+        };
+        if !root.is_finite() || root.powi(n) != k || root.abs() > 1e6 {
+            return None;
+        }
+        let part = |m: &Monomial| -> Monomial { m.iter().map(|&(a, p)| (a, p / n)).collect() };
+        let u = build_monomial(g, &part(a))?;
+        Some((u, build_term(g, &part(b), root)))
+    }
+
+    /// a b - c d = a (b - d) + d (a - c)
+    fn by_product(
+        &mut self,
+        g: &mut Graph,
+        a: &Monomial,
+        k: f64,
+        b: &Monomial,
+        depth: usize,
+    ) -> Option<Id> {
+        if !self.on(Rule::Products) || k.to_bits() != 1.0_f64.to_bits() {
+            return None;
+        }
+        let (left, right) = (self.factors(g, a)?, self.factors(g, b)?);
+        for (c, d) in [(right.0, right.1), (right.1, right.0)] {
+            let (a, b) = left;
+            if !is_real(g, a) || !is_real(g, b) || !is_real(g, c) || !is_real(g, d) {
+                return None;
+            }
+            let (Some(second), Some(first)) = (
+                self.difference(g, b, d, depth),
+                self.difference(g, a, c, depth),
+            ) else {
+                continue;
+            };
+            let (left, right) = (g.mul(a, second), g.mul(d, first));
+            let sum = g.add(left, right);
+            return self.by(Rule::Products, sum);
+        }
+        None
+    }
+
+    /// The two factors of a monomial.
+    fn factors(&self, g: &Graph, monomial: &Monomial) -> Option<(Id, Id)> {
+        match monomial.as_slice() {
+            [(a, 1), (b, 1)] => Some((*a, *b)),
+            _ => match self.view(g, only_atom(monomial)?) {
+                (Some(Prim::Mul), &[a, b]) => Some((a, b)),
+                _ => None,
+            },
+        }
+    }
+}
+
+/// u² + u v + v²
+pub(super) fn sum_of_three_products(g: &mut Graph, u: Id, v: Id) -> Id {
+    let squares = [u, v].map(|x| g.apply(Prim::PowInt(2), &[x]));
+    let mixed = g.mul(u, v);
+    let sum = g.add(squares[0], mixed);
+    g.add(sum, squares[1])
+}
+
+/// What two monomials share.
+fn common(a: &Monomial, b: &Monomial) -> Monomial {
+    let shared = a.iter().filter_map(|&(atom, p)| {
+        let (_, q) = b.iter().find(|(other, _)| *other == atom)?;
+        (p > 0 && *q > 0).then(|| (atom, p.min(*q)))
+    });
+    shared.collect()
+}
+
+fn inverse(m: &Monomial) -> Monomial {
+    m.iter().map(|&(atom, p)| (atom, -p)).collect()
+}

@@ -1,0 +1,22 @@
+//! Stability rewrites, switched on and off.
+
+use pullback_compiler::formula::Formula;
+use pullback_compiler::stable::{Phase, Rewrites, stabilise};
+
+/// The formula with all rewrites, or with none.
+#[must_use]
+pub fn with_rewrites(formula: &Formula, on: bool) -> Formula {
+    let rewrites = if on { Rewrites::ON } else { Rewrites::OFF };
+    formula.clone().with_rewrites(rewrites)
+}
+
+/// How many rewrites take place.
+#[must_use]
+pub fn count(formula: &Formula) -> usize {
+    [Phase::Early, Phase::Late]
+        .into_iter()
+        .map(|phase| stabilise(&formula.graph, &formula.value, Rewrites::ON, phase))
+        .map(|stable| stable.applied.len())
+        .max()
+        .unwrap_or(0)
+}

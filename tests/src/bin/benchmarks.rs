@@ -1,0 +1,129 @@
+//! Measures the bits that each tier loses on the benchmark expressions of FPBench and Herbie, and prints tables.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use pullback_compiler::lower::Precision;
+use pullback_runtime::{AdapterChoice, Gpu};
+use pullback_tests::benchmarks::data::{Benchmark, COLLECTIONS, collection};
+use pullback_tests::benchmarks::measure::{Machine, measure};
+use pullback_tests::benchmarks::report::{Style, details, json, telling, totals, ways};
+
+/// The error in bits of each tier on the benchmark expressions of FPBench and Herbie, over float32 points of their stated
+/// domains, against exact values of 200 bits and more.
+///
+/// A result's error is log2(1 + float32 numbers between it and the right one), 32 for a NaN; a benchmark's is the mean over
+/// its points. The wide tiers are also judged in their own format: pairs in units of 2^-48 of the value (48 at most), doubles
+/// by the float64 numbers between (64 at most). `+` marks stability rewrites.
+///
+/// Cancellation is said to dominate where the expression as it is written loses at least 4 bits when every operation is
+/// correctly rounded to 24 bits and exponents have no bounds: neither an adapter nor a rewrite nor an overflow has a part in
+/// that. The column `24 bits` shows it.
+#[derive(Parser)]
+struct Options {
+    /// `auto`, `gpu`, `software`, or part of an adapter's name; `reference` for the f64 evaluator
+    #[arg(long, default_value = "auto")]
+    adapter: String,
+    /// Only these tiers
+    #[arg(long, value_delimiter = ',', default_values = ["fast", "accurate", "extended", "double"])]
+    tiers: Vec<String>,
+    /// Only benchmarks whose name (collection/file/place) contains this
+    #[arg(long, default_value = "")]
+    only: String,
+    /// Only benchmarks on which cancellation dominates
+    #[arg(long)]
+    cancelling: bool,
+    /// Prints so many rows, those first in which rewrites gain the most
+    #[arg(long)]
+    telling: Option<usize>,
+    /// Prints tables of Markdown
+    #[arg(long)]
+    markdown: bool,
+    /// Prints a line with tabs for each benchmark, and nothing else
+    #[arg(long)]
+    tabs: bool,
+    /// Prints JSON, and nothing else
+    #[arg(long)]
+    json: bool,
+}
+
+fn main() -> ExitCode {
+    match run(&Options::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("{problem}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(options: &Options) -> Result<(), String> {
+    let machine = if options.adapter == "reference" {
+        Machine::Reference
+    } else {
+        let choice: AdapterChoice = options.adapter.parse().unwrap_or_default();
+        let gpu = Gpu::open(&choice).map_err(|e| e.to_string())?;
+        eprintln!("{}", gpu.adapter());
+        Machine::Gpu(Box::new(gpu))
+    };
+    let tiers = tiers(&options.tiers)?;
+    let (mut fits, mut unfit) = (Vec::new(), Vec::new());
+    for name in COLLECTIONS {
+        let (some, others) = collection(name)?;
+        fits.extend(some);
+        unfit.extend(others);
+    }
+    let wanted =
+        |b: &&Benchmark| b.id.contains(&options.only) && (!options.cancelling || b.cancels());
+    let mut rows = Vec::new();
+    let mut refused = Vec::new();
+    for benchmark in fits.iter().filter(wanted) {
+        match measure(benchmark, &machine, &ways(&tiers)) {
+            Ok(row) => rows.push(row),
+            Err(problem) => refused.push(problem),
+        }
+    }
+    for problem in &refused {
+        eprintln!("{problem}");
+    }
+    if options.json {
+        print!("{}", json(&rows));
+    } else if options.tabs {
+        print!("{}", details(&rows, Style::Tabs));
+    } else {
+        let style = if options.markdown {
+            Style::Markdown
+        } else {
+            Style::Text
+        };
+        println!("{}", totals(&rows, options.markdown));
+        match options.telling {
+            None => println!("{}", details(&rows, style)),
+            Some(most) => {
+                let some: Vec<_> = telling(&rows).into_iter().take(most).cloned().collect();
+                println!("{}", details(&some, style));
+            }
+        }
+        println!("Not measured: {}", unfit.len());
+        for other in &unfit {
+            println!("- {} ({}): {}", other.id, other.name, other.reason);
+        }
+    }
+    match refused.len() {
+        0 => Ok(()),
+        n => Err(format!("{n} benchmarks were refused")),
+    }
+}
+
+fn tiers(words: &[String]) -> Result<Vec<Precision>, String> {
+    words
+        .iter()
+        .map(|word| match word.as_str() {
+            "fast" => Ok(Precision::Fast),
+            "accurate" => Ok(Precision::Accurate),
+            "extended" => Ok(Precision::Extended),
+            "double" => Ok(Precision::Double),
+            _ => Err(format!("no tier `{word}`")),
+        })
+        .collect()
+}
