@@ -98,6 +98,10 @@ impl Pass {
                     self.built(g, rest_without_marks(rest), depth)
                 });
             }
+            // only a part of a term has gone: a + b of like size remains, as before
+            if rest.cancelled > 0 {
+                return None;
+            }
         }
         // a common factor of both is taken out: f/√a - f/√b
         self.difference(g, a, b, depth)

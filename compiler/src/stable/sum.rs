@@ -9,7 +9,7 @@ use super::polynomial::{
     Expand, Monomial, Polynomial, build, build_monomial, build_term, monomial_product,
 };
 use super::rule::Rule;
-use crate::ir::{Graph, Id, Prim};
+use crate::ir::{Graph, Id, Op, Prim};
 
 /// Most terms of a sum whose pairs are looked at.
 const MAX_PAIRED: usize = 8;
@@ -142,8 +142,7 @@ impl Pass {
                 continue;
             };
             if common.is_empty() {
-                let x = g.real(x);
-                return Some(g.mul(x, difference));
+                return Some(times(g, x, difference));
             }
             if !self.on(Rule::Factor) {
                 return None;
@@ -273,7 +272,6 @@ impl Pass {
         if a.iter().chain(b).any(|(_, power)| power % n != 0) {
             return None;
         }
-        #[allow(clippy::cast_possible_truncation, reason = "only small numbers are roots here")]
         let root = match n {
             2 => k.sqrt(),
             _ => k.cbrt().round(),
@@ -327,6 +325,21 @@ impl Pass {
             },
         }
     }
+}
+
+/// x a, the sign inside of a quotient of a constant.
+fn times(g: &mut Graph, x: f64, a: Id) -> Id {
+    let node = g.node(a);
+    if let (true, Op::Apply(Prim::Div), &[n, d]) = (x < 0.0, node.op, node.args.as_slice())
+        && let Some(n) = g.as_real(n)
+    {
+        let n = g.real(-n);
+        let quotient = g.div(n, d);
+        let size = g.real(-x);
+        return g.mul(size, quotient);
+    }
+    let x = g.real(x);
+    g.mul(x, a)
 }
 
 /// u² + u v + v²
