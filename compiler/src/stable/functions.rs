@@ -158,7 +158,11 @@ impl Pass {
         let log = g.apply(Prim::Log1p, &[quotient]);
         if !two.is_real(g) {
             let upper_half = two.constant.is_some() && is_real(g, two.delta);
-            return if upper_half { self.by(Rule::Log, log) } else { None };
+            return if upper_half {
+                self.by(Rule::Log, log)
+            } else {
+                None
+            };
         }
         let size = g.apply(Prim::Abs, &[two.delta]);
         let (condition, written) = (less(g, size, two.b), two.written(g));
@@ -272,10 +276,7 @@ impl Pass {
         h: Prim,
         factor: f64,
     ) -> Option<Id> {
-        let (half, middle) = (
-            scaled(g, 0.5, two.delta),
-            self.total(g, 0.5, two.a, two.b)?,
-        );
+        let (half, middle) = (scaled(g, 0.5, two.delta), self.total(g, 0.5, two.a, two.b)?);
         let (small, large) = (g.apply(f, &[half]), g.apply(h, &[middle]));
         let double = scaled(g, factor, small);
         Some(g.mul(double, large))
@@ -428,7 +429,11 @@ impl Pass {
                 if !self.on(Rule::CosMinusOne) {
                     return None;
                 }
-                let (wave, factor) = if k > 0.0 { (Prim::Sin, -2.0) } else { (Prim::Cos, 2.0) };
+                let (wave, factor) = if k > 0.0 {
+                    (Prim::Sin, -2.0)
+                } else {
+                    (Prim::Cos, 2.0)
+                };
                 let new = twice_square(g, wave, a, factor);
                 self.by(Rule::CosMinusOne, new)
             }

@@ -187,7 +187,12 @@ struct Reader<'a> {
 
 /// No deeper than [`MAX_DEPTH`].
 fn read(reader: &Reader, id: Id, depth: usize) -> Option<Polynomial> {
-    let &Reader { g, plain, expand, left } = reader;
+    let &Reader {
+        g,
+        plain,
+        expand,
+        left,
+    } = reader;
     let depth = depth.checked_sub(1)?;
     left.set(left.get().checked_sub(1)?);
     let node = g.node(plain(id));
@@ -208,10 +213,14 @@ fn read(reader: &Reader, id: Id, depth: usize) -> Option<Polynomial> {
             let (Some(p), Some(q)) = (go(a), go(b)) else {
                 return atom();
             };
-            product(&p, &q, expand).map_or_else(atom, Some)
+            product(&p, &q, expand)
+                .or_else(|| as_factor(p, a).mul(&as_factor(q, b)))
+                .map_or_else(atom, Some)
         }
         (Op::Apply(Prim::Div), &[a, b]) => {
-            let inverse = constant(g, b).filter(|b| is_power_of_two(*b)).map(f64::recip);
+            let inverse = constant(g, b)
+                .filter(|b| is_power_of_two(*b))
+                .map(f64::recip);
             match (inverse, go(a)) {
                 (Some(inverse), Some(p)) => Polynomial::default().add(&p, inverse),
                 _ => atom(),
@@ -219,16 +228,23 @@ fn read(reader: &Reader, id: Id, depth: usize) -> Option<Polynomial> {
         }
         (Op::Apply(Prim::PowInt(n @ 2..=8)), &[a]) => {
             let Some(p) = go(a) else { return atom() };
-            let mut out = Polynomial::one();
-            for _ in 0..n {
-                match product(&out, &p, expand) {
-                    Some(next) => out = next,
-                    None => return atom(),
-                }
-            }
-            Some(out)
+            let power = |p: &Polynomial| {
+                (0..n).try_fold(Polynomial::one(), |out, _| product(&out, p, expand))
+            };
+            power(&p)
+                .or_else(|| power(&as_factor(p, a)))
+                .map_or_else(atom, Some)
         }
         _ => atom(),
+    }
+}
+
+/// A sum as one factor.
+fn as_factor(p: Polynomial, id: Id) -> Polynomial {
+    if p.terms.len() <= 1 {
+        p
+    } else {
+        Polynomial::atom(id)
     }
 }
 
@@ -280,7 +296,9 @@ pub fn build_term(g: &mut Graph, monomial: &Monomial, coefficient: f64) -> Id {
 
 /// The polynomial as nodes: a term that is added comes first, where there is one.
 pub fn build(g: &mut Graph, terms: &[(Monomial, f64)]) -> Id {
-    let first = terms.iter().position(|(m, value)| *value > 0.0 && !m.is_empty());
+    let first = terms
+        .iter()
+        .position(|(m, value)| *value > 0.0 && !m.is_empty());
     let first = first.or_else(|| terms.iter().position(|(_, value)| *value > 0.0));
     let first = first.unwrap_or(0);
     let Some((monomial, value)) = terms.get(first) else {
@@ -292,7 +310,11 @@ pub fn build(g: &mut Graph, terms: &[(Monomial, f64)]) -> Id {
             continue;
         }
         let term = build_term(g, monomial, value.abs());
-        out = if *value < 0.0 { g.sub(out, term) } else { g.add(out, term) };
+        out = if *value < 0.0 {
+            g.sub(out, term)
+        } else {
+            g.add(out, term)
+        };
     }
     out
 }

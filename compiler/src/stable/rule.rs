@@ -65,8 +65,8 @@ rules! {
         "everywhere; of reals |a| and |b| are taken, so that an exact zero is +0 as written. a² may overflow where the product does not. Not before differentiation: (2a)' is better than the derivative of the product",
         "D. Goldberg, What every computer scientist should know about floating-point arithmetic, ACM Comput. Surv. 23 (1991), section 1.4";
     Cubes "cubes", false, "real and complex":
-        "a³ - b³ = (a - b)·(a² + a·b + b²)",
-        "reals everywhere: the second factor does not cancel; complex numbers only where a - b is simplified",
+        "a³ - b³ = (a - b)·(a² + a·b + b²), and so on for aⁿ - bⁿ, n = 5, 7",
+        "reals everywhere for n = 3, where the second factor does not cancel; else only where a - b is simplified",
         "factorisation";
     ComplexSquares "complex-squares", false, "complex":
         "z² + c² = (z - c·i)·(z + c·i)",
@@ -128,6 +128,10 @@ rules! {
         "exp a/(exp a - 1) = -1/expm1(-a)",
         "everywhere; 1 instead of NaN where exp a overflows",
         "Higham, section 1.14";
+    Ratio "exponential-ratio", true, "real":
+        "sinh a/cosh a = tanh a, expm1(2a)/expm1 a = exp a + 1",
+        "everywhere; the limit instead of NaN where both overflow, and 2 instead of NaN at a = 0 for the second",
+        "DLMF 4.28.8";
     PowerMinusOne "power-minus-one", true, "real":
         "a^b - 1 = expm1(b·log a)",
         "guarded by |b·log a| < 1/2, else as written; log a is log1p(a - 1) where a - 1 is simplified",

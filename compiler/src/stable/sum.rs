@@ -132,7 +132,10 @@ impl Pass {
         let common = common(&first.0, &second.0);
         let rest = |m: &Monomial| monomial_product(m, &inverse(&common));
         let (a, b) = (rest(&first.0)?, rest(&second.0)?);
-        for ((a, x), (b, y)) in [((&a, first.1), (&b, second.1)), ((&b, second.1), (&a, first.1))] {
+        for ((a, x), (b, y)) in [
+            ((&a, first.1), (&b, second.1)),
+            ((&b, second.1), (&a, first.1)),
+        ] {
             // x a + y b = x (a - k b)
             let k = -y / x;
             if a.is_empty() || !k.is_finite() || k * x != -y || x.mul_add(k, y) != 0.0 {
@@ -236,7 +239,7 @@ impl Pass {
         self.by(Rule::ComplexSquares, product)
     }
 
-    /// a³ - b³ = (a - b)(a² + a b + b²)
+    /// aⁿ - bⁿ = (a - b)(aⁿ⁻¹ + aⁿ⁻² b + … + bⁿ⁻¹), n odd
     fn by_cubes(
         &mut self,
         g: &mut Graph,
@@ -248,33 +251,33 @@ impl Pass {
         if !self.on(Rule::Cubes) {
             return None;
         }
-        let (u, v) = self.roots(g, a, k, b, 3)?;
+        let found = [3, 5, 7]
+            .into_iter()
+            .find_map(|n| Some((n, self.roots(g, a, k, b, n)?)));
+        let (n, (u, v)) = found?;
         let real = is_real(g, u) && is_real(g, v);
         let difference = match self.difference(g, u, v, depth) {
             Some(simple) => simple,
-            None if real => g.sub(u, v),
+            None if real && n == 3 => g.sub(u, v),
             None => return None,
         };
-        let sum = sum_of_three_products(g, u, v);
+        let sum = if n == 3 {
+            sum_of_three_products(g, u, v)
+        } else {
+            power_sum(g, u, v, n)
+        };
         let product = g.mul(difference, sum);
         self.by(Rule::Cubes, product)
     }
 
     /// u and v with uⁿ = a and vⁿ = k b, where both are monomials.
-    fn roots(
-        &self,
-        g: &mut Graph,
-        a: &Monomial,
-        k: f64,
-        b: &Monomial,
-        n: i32,
-    ) -> Option<(Id, Id)> {
+    fn roots(&self, g: &mut Graph, a: &Monomial, k: f64, b: &Monomial, n: i32) -> Option<(Id, Id)> {
         if a.iter().chain(b).any(|(_, power)| power % n != 0) {
             return None;
         }
         let root = match n {
             2 => k.sqrt(),
-            _ => k.cbrt().round(),
+            _ => k.abs().powf(1.0 / f64::from(n)).round().copysign(k),
         };
         if !root.is_finite() || root.powi(n) != k || root.abs() > 1e6 {
             return None;
@@ -340,6 +343,17 @@ fn times(g: &mut Graph, x: f64, a: Id) -> Id {
     }
     let x = g.real(x);
     g.mul(x, a)
+}
+
+/// uⁿ⁻¹ + uⁿ⁻² v + … + vⁿ⁻¹
+fn power_sum(g: &mut Graph, u: Id, v: Id, n: i32) -> Id {
+    let mut sum = g.add(u, v);
+    for k in 2..n {
+        let power = g.apply(Prim::PowInt(k), &[v]);
+        let product = g.mul(sum, u);
+        sum = g.add(product, power);
+    }
+    sum
 }
 
 /// u² + u v + v²

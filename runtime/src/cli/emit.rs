@@ -9,7 +9,7 @@ use pullback_runtime::AtomicFile;
 
 use super::failure::Failure;
 use super::source::Source;
-use super::{Console, Input, Numbers, Rules, Output, Which, render};
+use super::{Console, Input, Numbers, Output, Rules, Which, render};
 
 /// Arguments of `pullback emit`.
 #[derive(Debug, Args)]

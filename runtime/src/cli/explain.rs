@@ -94,7 +94,12 @@ pub(super) fn run(arguments: &ExplainArguments, console: &Console) -> Result<(),
         Part::Gradient => What::Gradient,
         Part::Derivative => What::Derivative,
     };
-    let params: Vec<String> = source.program.params().iter().map(|p| p.name.clone()).collect();
+    let params: Vec<String> = source
+        .program
+        .params()
+        .iter()
+        .map(|p| p.name.clone())
+        .collect();
     let made = stable::explain(&picture.formula, &params, what);
     let made = made.map_err(|error| vec![error.diagnostic(&picture.formula)]);
     let found = source.expect(made, console)?;
@@ -115,7 +120,12 @@ fn tell(out: &mut impl Write, picture: &Picture, found: &Explanation) -> io::Res
         .map(|input| format!("{}: {}", input.name, input.ty.in_words()))
         .collect();
     let (name, result) = (&formula.name, formula.ty.in_words());
-    writeln!(out, "{name}({}) gives {result}, shown by `{}`", inputs.join(", "), picture.scene.name)?;
+    writeln!(
+        out,
+        "{name}({}) gives {result}, shown by `{}`",
+        inputs.join(", "),
+        picture.scene.name
+    )?;
     writeln!(out, "\nwritten\n{}", indented(&found.written))?;
     writeln!(out, "\ncompiled\n{}", indented(&found.compiled))?;
     if found.applied.is_empty() {
@@ -134,7 +144,12 @@ fn tell(out: &mut impl Write, picture: &Picture, found: &Explanation) -> io::Res
 fn steps(out: &mut impl Write, steps: &[Step]) -> io::Result<()> {
     let mut told: Vec<Rule> = Vec::new();
     for step in steps {
-        writeln!(out, "{}\n  becomes\n{}", indented(&step.before), indented(&step.after))?;
+        writeln!(
+            out,
+            "{}\n  becomes\n{}",
+            indented(&step.before),
+            indented(&step.after)
+        )?;
         for &rule in &step.rules {
             let record = rule.record();
             if told.contains(&rule) {

@@ -13,7 +13,7 @@ use pullback_runtime::{
 use super::failure::Failure;
 use super::progress::{Counted, Progress};
 use super::source::Source;
-use super::{Console, Device, Input, Numbers, Rules, Output, Settings, Which, overrides};
+use super::{Console, Device, Input, Numbers, Output, Rules, Settings, Which, overrides};
 
 /// Arguments of `pullback render`.
 #[derive(Debug, Args)]
