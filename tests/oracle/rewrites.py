@@ -66,6 +66,7 @@ REAL = [
     ("quotients,cancel", "f(x: real) = 1/(x + 1) - 1/x", lambda x: 1/(x+1) - 1/x, point(size(1e-9, 1e9))),
     ("quotients", "f(x: real) = 1/(x + 1) - 2/x + 1/(x - 1)", lambda x: 1/(x+1) - 2/x + 1/(x-1), point(size(1.5, 1e9))),
     ("quotients", "f(x: real) = x/(x + 1) - (x + 1)/(x - 1)", lambda x: x/(x+1) - (x+1)/(x-1), point(size(2, 1e12))),
+    ("factor,sqrt-difference", "f(x, y) = y*sqrt(x + 1) - y*sqrt(x)", lambda x, y: y*(sqrt(x+1) - sqrt(x)), point(wide, any_)),
     ("squares", "f(x, y) = x^2 - y^2", lambda x, y: x*x - y*y, close(1e-20, 1e20, 1e-15, 0.5)),
     ("squares", "f(x, y) = x^2 - y^2", lambda x, y: x*x - y*y, point(any_, any_)),
     ("squares", "f(x: real) = (x + 1)*(x + 1) - 1", lambda x: (x+1)**2 - 1, point(size(1e-20, 1e20))),

@@ -129,7 +129,8 @@ impl Pass {
         if two.constant.is_some() {
             return self.by(Rule::Sqrt, quotient);
         }
-        let (condition, written) = (positive(g, sum), two.written(g));
+        let size = g.apply(Prim::Abs, &[two.delta]);
+        let (condition, written) = (less(g, size, two.b), two.written(g));
         let chosen = choose(g, condition, quotient, written);
         self.by(Rule::Sqrt, chosen)
     }
@@ -165,6 +166,7 @@ impl Pass {
             };
         }
         let size = g.apply(Prim::Abs, &[two.delta]);
+        let size = scaled(g, 2.0, size);
         let (condition, written) = (less(g, size, two.b), two.written(g));
         let chosen = choose(g, condition, log, written);
         self.by(Rule::Log, chosen)
@@ -389,10 +391,10 @@ impl Pass {
         let numerator = self.built(g, rest, depth.checked_sub(1)?);
         let sum = g.add(root, w);
         let quotient = g.div(numerator, sum);
-        if b.is_empty() {
-            return self.by(Rule::Conjugate, quotient);
-        }
-        let (condition, written) = (positive(g, w), g.sub(root, w));
+        // beyond, nothing cancels, and numerator or root may be infinite; for w ≤ 0 it does not hold
+        let limit = scaled(g, 4.0, w);
+        let condition = less(g, root, limit);
+        let written = g.sub(root, w);
         let chosen = choose(g, condition, quotient, written);
         self.by(Rule::Conjugate, chosen)
     }

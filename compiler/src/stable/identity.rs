@@ -78,7 +78,7 @@ impl Pass {
                 let new = Self::times_log(g, f64::from(n), x);
                 self.by(Rule::LogPower, new)
             }
-            (Some(Prim::Div), &[n, d]) => self.log_of_quotient(g, n, d),
+            (Some(Prim::Div), &[n, d]) => self.log_of_quotient(g, a, n, d),
             _ => None,
         };
         let found = found.or_else(|| self.inverse_hyperbolic(g, a));
@@ -124,14 +124,25 @@ impl Pass {
         self.by(Rule::LogAbs, new)
     }
 
-    /// log(a/b) = log1p((a - b)/b)
-    fn log_of_quotient(&mut self, g: &mut Graph, a: Id, b: Id) -> Option<Id> {
+    /// log(a/b) = 2 atanh((a - b)/(a + b)) where a + b is a constant, else log1p((a - b)/b)
+    fn log_of_quotient(&mut self, g: &mut Graph, written: Id, a: Id, b: Id) -> Option<Id> {
         if !is_real(g, a) || !is_real(g, b) || !self.on(Rule::LogQuotient) {
             return None;
         }
         let difference = self.difference(g, a, b, 4)?;
+        let sum = self.total(g, 1.0, a, b)?;
+        if let Some(c) = super::guard::nonzero_constant(g, sum) {
+            let c = g.real(c);
+            let half = g.div(difference, c);
+            let atanh = g.apply(Prim::Atanh, &[half]);
+            let new = super::guard::scaled(g, 2.0, atanh);
+            return self.by(Rule::LogQuotient, new);
+        }
         let quotient = g.div(difference, b);
         let new = g.apply(Prim::Log1p, &[quotient]);
+        let condition = super::guard::within(g, quotient, 0.5);
+        let written = g.apply(Prim::Log, &[written]);
+        let new = super::guard::choose(g, condition, new, written);
         self.by(Rule::LogQuotient, new)
     }
 

@@ -27,6 +27,8 @@ pub struct Polynomial {
     pub terms: SmallVec<[(Monomial, f64); 8]>,
     /// How many pairs of terms have cancelled each other, wholly or in part.
     pub cancelled: usize,
+    /// How many terms have cancelled wholly.
+    pub vanished: usize,
     /// What has cancelled wholly.
     pub lost: SmallVec<[Monomial; 2]>,
 }
@@ -77,6 +79,7 @@ impl Polynomial {
     /// Adds `factor` times another one; `None` where a coefficient is not exact or it gets too long.
     pub fn add(mut self, other: &Self, factor: f64) -> Option<Self> {
         self.cancelled += other.cancelled;
+        self.vanished += other.vanished;
         for lost in &other.lost {
             self.lost.push(lost.clone());
         }
@@ -101,6 +104,7 @@ impl Polynomial {
         let sum = exact_sum(old, value)?;
         if sum == 0.0 {
             self.terms.remove(k);
+            self.vanished += 1;
             if !monomial.is_empty() {
                 self.lost.push(monomial.clone());
             }
@@ -114,6 +118,7 @@ impl Polynomial {
     pub fn mul(&self, other: &Self) -> Option<Self> {
         let mut out = Self {
             cancelled: self.cancelled + other.cancelled,
+            vanished: self.vanished + other.vanished,
             ..Self::default()
         };
         for lost in self.lost.iter().chain(&other.lost) {
@@ -154,7 +159,7 @@ fn exact_sum(a: f64, b: f64) -> Option<f64> {
     (error == 0.0 && sum.is_finite()).then_some(sum)
 }
 
-fn exact_product(a: f64, b: f64) -> Option<f64> {
+pub fn exact_product(a: f64, b: f64) -> Option<f64> {
     let product = a * b;
     let exact = product.is_finite() && (product == 0.0) == (a == 0.0 || b == 0.0);
     (exact && a.mul_add(b, -product) == 0.0).then_some(product)

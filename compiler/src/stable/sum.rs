@@ -6,7 +6,8 @@ use super::Phase;
 use super::guard::is_real;
 use super::pass::{Pass, only_atom};
 use super::polynomial::{
-    Expand, Monomial, Polynomial, build, build_monomial, build_term, monomial_product,
+    Expand, Monomial, Polynomial, build, build_monomial, build_term, exact_product,
+    monomial_product,
 };
 use super::rule::Rule;
 use crate::ir::{Graph, Id, Op, Prim};
@@ -78,7 +79,11 @@ impl Pass {
 
     fn improve(&mut self, g: &mut Graph, mut p: Polynomial, depth: usize) -> Option<Id> {
         let mut changed = false;
-        if p.cancelled > 0 {
+        if p.cancelled > 0 && p.vanished == 0 {
+            // 3a - 2a: written so, and as good
+            return None;
+        }
+        if p.vanished > 0 {
             if !self.on(Rule::Cancel) {
                 return None;
             }
@@ -204,17 +209,34 @@ impl Pass {
         if !self.on(Rule::Squares) {
             return None;
         }
-        if let Some(simple) = self.difference(g, u, v, depth) {
+        if is_real(g, u)
+            && let Some(simple) = self.difference(g, u, v, depth)
+        {
             let sum = self.total(g, 1.0, u, v)?;
             let product = g.mul(simple, sum);
             return self.by(Rule::Squares, product);
         }
-        let real = is_real(g, u) && is_real(g, v);
-        let size = |g: &mut Graph, id| if real { g.apply(Prim::Abs, &[id]) } else { id };
-        let (u, v) = (size(g, u), size(g, v));
+        if !is_real(g, u) {
+            let product = self.squares_of_parts(g, a, u, v)?;
+            return self.by(Rule::Squares, product);
+        }
+        let (u, v) = (g.apply(Prim::Abs, &[u]), g.apply(Prim::Abs, &[v]));
         let (difference, sum) = (g.sub(u, v), g.add(u, v));
         let product = g.mul(difference, sum);
         self.by(Rule::Squares, product)
+    }
+
+    /// z² - v² for a constant v: the real part of (z - v)(z + v), and the imaginary part of z², which does not cancel
+    /// and whose sign chooses the side of a cut.
+    fn squares_of_parts(&self, g: &mut Graph, square: &Monomial, z: Id, v: Id) -> Option<Id> {
+        if g.as_real(v).is_none() && g.as_complex(v).is_none() {
+            return None;
+        }
+        let (left, right) = (g.sub(z, v), g.add(z, v));
+        let product = g.mul(left, right);
+        let square = build_monomial(g, square)?;
+        let parts = [g.apply(Prim::Re, &[product]), g.apply(Prim::Im, &[square])];
+        Some(g.apply(Prim::Complex, &parts))
     }
 
     /// z² + c² = (z - c i)(z + c i)
@@ -233,9 +255,8 @@ impl Pass {
         if is_real(g, z) {
             return None;
         }
-        let (plus, minus) = (g.complex(0.0, c), g.complex(0.0, -c));
-        let (left, right) = (g.add(z, minus), g.add(z, plus));
-        let product = g.mul(left, right);
+        let c = g.complex(0.0, c);
+        let product = self.squares_of_parts(g, a, z, c)?;
         self.by(Rule::ComplexSquares, product)
     }
 
@@ -279,7 +300,8 @@ impl Pass {
             2 => k.sqrt(),
             _ => k.abs().powf(1.0 / f64::from(n)).round().copysign(k),
         };
-        if !root.is_finite() || root.powi(n) != k || root.abs() > 1e6 {
+        let power = (1..n).try_fold(root, |power, _| exact_product(power, root));
+        if !root.is_finite() || power != Some(k) || root.abs() > 1e6 {
             return None;
         }
         let part = |m: &Monomial| -> Monomial { m.iter().map(|&(a, p)| (a, p / n)).collect() };
@@ -356,12 +378,15 @@ fn power_sum(g: &mut Graph, u: Id, v: Id, n: i32) -> Id {
     sum
 }
 
-/// u² + u v + v²
+/// u² + u v + v² = 3/4 (u + v)² + 1/4 (u - v)², where no infinity meets a zero
 pub(super) fn sum_of_three_products(g: &mut Graph, u: Id, v: Id) -> Id {
-    let squares = [u, v].map(|x| g.apply(Prim::PowInt(2), &[x]));
-    let mixed = g.mul(u, v);
-    let sum = g.add(squares[0], mixed);
-    g.add(sum, squares[1])
+    let (sum, difference) = (g.add(u, v), g.sub(u, v));
+    let [plus, minus] = [(0.75, sum), (0.25, difference)].map(|(factor, x)| {
+        let factor = g.real(factor);
+        let square = g.apply(Prim::PowInt(2), &[x]);
+        g.mul(factor, square)
+    });
+    g.add(plus, minus)
 }
 
 /// What two monomials share.
