@@ -269,7 +269,7 @@ const UNTOUCHED: [&str; 21] = [
     "f(z) = sqrt(z^2)",
     "f(x, y) = sqrt(x^2 - y)",
     "f(x, y) = x - y",
-    "f(x, y) = x^2 + y^2 - 1.5",
+    "f(x, y) = x^2 + y^2 - 1",
     "f(x: real) = log(2 + x)",
     "f(z) = iterate(50, w = 0, w^2 + z)",
 ];

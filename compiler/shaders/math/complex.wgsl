@@ -189,10 +189,14 @@ fn complex_expm1(z: vec2f) -> vec2f {
         let e = complex_exp(z);
         return vec2f(e.x - 1.0, e.y);
     }
+    if magnitude(z.y) == 0.0 {
+        return vec2f(real_expm1(z.x), z.y);
+    }
     let wave = real_sincos(z.y);
     let half = real_sin(0.5 * z.y);
+    let turned = -2.0 * half * half; // cos y - 1, of which an underflow keeps the sign
     return vec2f(
-        sum_of_products(real_expm1(z.x), wave.y, -2.0 * half, half),
+        select(sum_of_products(real_expm1(z.x), wave.y, -2.0 * half, half), turned, z.x == 0.0),
         flip_sign(magnitude(real_exp(z.x) * wave.x), sign_bit(wave.x)),
     );
 }
@@ -202,6 +206,9 @@ fn complex_expm1(z: vec2f) -> vec2f {
 fn complex_log1p(z: vec2f) -> vec2f {
     if !(magnitude(z.x) < 0.5 && magnitude(z.y) < 0.5) {
         return complex_log(vec2f(1.0 + z.x, z.y));
+    }
+    if magnitude(z.y) == 0.0 {
+        return vec2f(real_log1p(z.x), z.y);
     }
     let zero = hidden_zero(z.x);
     let xx = two_product(z.x, z.x, zero);

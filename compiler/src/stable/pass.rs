@@ -122,6 +122,8 @@ pub(super) struct Pass {
     applied: Vec<Applied>,
     /// Whether differences that are not simplified count, too, where they are of inputs.
     pub(super) inputs_too: bool,
+    /// Whether the sum at hand has just two terms.
+    pub(super) alone: bool,
     /// Steps left for the rewrite at hand.
     pub(super) patience: usize,
 }
@@ -136,6 +138,7 @@ impl Pass {
             lost: SmallVec::new(),
             applied: Vec::new(),
             inputs_too: false,
+            alone: false,
             patience: 0,
         }
     }

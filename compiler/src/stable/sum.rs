@@ -120,7 +120,10 @@ impl Pass {
             for j in i + 1..terms.len() {
                 self.patience = self.patience.checked_sub(1)?;
                 let (used, lost) = self.marks();
-                let Some(node) = self.pair(g, &terms[i], &terms[j], depth) else {
+                let alone = std::mem::replace(&mut self.alone, terms.len() == 2);
+                let found = self.pair(g, &terms[i], &terms[j], depth);
+                self.alone = alone;
+                let Some(node) = found else {
                     self.reset(used, lost);
                     continue;
                 };
@@ -216,6 +219,10 @@ impl Pass {
             let product = g.mul(simple, sum);
             return self.by(Rule::Squares, product);
         }
+        // beside a third term, the rounding of a² is not what counts
+        if !self.alone {
+            return None;
+        }
         if !is_real(g, u) {
             let product = self.squares_of_parts(g, a, u, v)?;
             return self.by(Rule::Squares, product);
@@ -247,7 +254,7 @@ impl Pass {
         k: f64,
         b: &Monomial,
     ) -> Option<Id> {
-        if !b.is_empty() || !self.on(Rule::ComplexSquares) {
+        if !self.alone || !b.is_empty() || !self.on(Rule::ComplexSquares) {
             return None;
         }
         let (z, c) = self.roots(g, a, -k, b, 2)?;
@@ -279,7 +286,7 @@ impl Pass {
         let real = is_real(g, u) && is_real(g, v);
         let difference = match self.difference(g, u, v, depth) {
             Some(simple) => simple,
-            None if real && n == 3 => g.sub(u, v),
+            None if real && n == 3 && self.alone => g.sub(u, v),
             None => return None,
         };
         let sum = if n == 3 {
