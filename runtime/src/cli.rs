@@ -6,6 +6,7 @@ mod console;
 mod doctor;
 mod emit;
 mod eval;
+mod explain;
 mod failure;
 mod fmt;
 mod functions;
@@ -24,6 +25,7 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use pullback_compiler::SettingValue;
 use pullback_compiler::lower::Precision;
+use pullback_compiler::stable::{RULES, Rewrites};
 use pullback_runtime::{AdapterChoice, Gpu};
 
 pub(crate) use console::Console;
@@ -63,6 +65,9 @@ enum Command {
     /// Set programs in the canonical format
     #[command(after_help = EXIT_CODES)]
     Fmt(fmt::FmtArguments),
+    /// Show a formula as it is compiled, and which rewrites keep it from losing digits
+    #[command(after_help = EXIT_CODES)]
+    Explain(explain::ExplainArguments),
     /// Evaluate a formula at points
     #[command(after_help = EXIT_CODES)]
     Eval(eval::EvalArguments),
@@ -128,6 +133,26 @@ struct Numbers {
     /// How numbers are computed in the shader [default: the program's setting `precision`, else accurate]
     #[arg(long, value_enum)]
     precision: Option<Tier>,
+}
+
+/// Which stability rewrites are done.
+#[derive(Clone, Copy, Debug, Args)]
+struct Rules {
+    /// Rewrites that keep digits: on, off, or names with commas between; -NAME is all but that one (docs/rewrites.md)
+    #[arg(long, default_value = "on", value_name = "on|off|NAME,…", value_parser = rewrites,
+          allow_hyphen_values = true)]
+    rewrites: Rewrites,
+}
+
+fn rewrites(text: &str) -> Result<Rewrites, String> {
+    Rewrites::parse(text).map_err(|word| {
+        let names = RULES.iter().map(|rule| rule.name);
+        let mut message = format!("there is no rewrite `{word}`");
+        if let Some(nearest) = spelling::nearest(word.trim_start_matches('-'), names) {
+            message += &format!("; did you mean `{nearest}`?");
+        }
+        message
+    })
 }
 
 /// A tier, or the choice of one.
@@ -250,6 +275,7 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
         Command::Emit(arguments) => emit::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),
         Command::Fmt(arguments) => fmt::run(&arguments, console),
+        Command::Explain(arguments) => explain::run(&arguments, console),
         Command::Eval(arguments) => eval::run(&arguments, console),
         Command::Doctor(arguments) => doctor::run(&arguments, console),
         Command::Accuracy(arguments) => accuracy::run(&arguments, console),

@@ -400,3 +400,68 @@ fn reference_pages_are_current() {
         );
     }
 }
+
+#[test]
+fn explain_shows_the_rewrites() {
+    let check = |arguments: &[&str], has: &[&str], lacks: &[&str]| {
+        let (code, output, errors) = pullback(arguments, "");
+        assert_eq!(code, 0, "{arguments:?}: {errors}");
+        for word in has {
+            assert!(output.contains(word), "no {word} in\n{output}");
+        }
+        for word in lacks {
+            assert!(!output.contains(word), "{word} in\n{output}");
+        }
+    };
+    let formula = "sqrt(x + 1) - sqrt(x)";
+    let form = "1/(sqrt(x + 1) + sqrt(x))";
+    check(
+        &["explain", formula],
+        &[
+            "f(x: ",
+            "written",
+            formula,
+            "compiled",
+            form,
+            "sqrt-difference",
+            "√a - √b",
+        ],
+        &["but off"],
+    );
+    check(
+        &["explain", formula, "--rewrites", "off"],
+        &["no rewrites", "possible, but off", form],
+        &[],
+    );
+    check(
+        &[
+            "explain",
+            "1 - cos(x) + 0 y",
+            "--rewrites",
+            "-one-minus-cos",
+        ],
+        &["but off"],
+        &[],
+    );
+    let (code, output, _) = pullback(&["explain", formula, "--format", "json"], "");
+    let report: serde_json::Value = serde_json::from_str(&output).unwrap();
+    assert_eq!((code, &report["version"]), (0, &serde_json::json!(1)));
+    assert_eq!(report["compiled"], form);
+    assert_eq!(report["rewrites"][0]["after"], form);
+    assert_eq!(report["rewrites"][0]["rules"][0]["name"], "sqrt-difference");
+    let (code, _, errors) = pullback(&["explain", formula, "--rewrites", "hypott"], "");
+    assert!(
+        code == 2 && errors.contains("did you mean `hypot`"),
+        "{errors}"
+    );
+}
+
+#[test]
+fn emit_obeys_the_rewrites() {
+    let emitted = |rewrites: &str| {
+        let arguments = ["emit", "1 - cos(x)", "--rewrites", rewrites];
+        pullback(&arguments, "").1
+    };
+    assert!(emitted("on").contains("real_sin") && !emitted("on").contains("real_cos("));
+    assert!(emitted("off").contains("real_cos"));
+}

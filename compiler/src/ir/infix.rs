@@ -83,9 +83,15 @@ impl<'g> Writer<'g> {
 
     fn node(&mut self, id: Id, node: &Node) {
         let (text, hold) = self.text(id, node);
-        let user = self.graph.name(id).filter(|name| !self.taken.contains(*name));
+        let user = self
+            .graph
+            .name(id)
+            .filter(|name| !self.taken.contains(*name));
         let simple = node.args.is_empty() || text.chars().count() <= MAX_REPEATED;
-        let inside_loop = self.states.keys().any(|state| self.graph.ty(*state) == Ty::Loop);
+        let inside_loop = self
+            .states
+            .keys()
+            .any(|state| self.graph.ty(*state) == Ty::Loop);
         let named = !simple && self.uses[id.index()] > 1 && node.ty != Ty::Loop && !inside_loop;
         let place = if named {
             let name = user.map_or_else(|| self.fresh(), str::to_owned);
@@ -188,7 +194,11 @@ impl<'g> Writer<'g> {
             Prim::Pow => binary("^", Hold::Whole, Hold::Whole, Hold::Power),
             Prim::PowInt(n) => {
                 let base = self.operand(node.args[0], Hold::Whole);
-                let exponent = if n < 0 { format!("({n})") } else { n.to_string() };
+                let exponent = if n < 0 {
+                    format!("({n})")
+                } else {
+                    n.to_string()
+                };
                 (format!("{base}^{exponent}"), Hold::Power)
             }
             Prim::Less => comparison(" < "),
@@ -207,10 +217,7 @@ impl<'g> Writer<'g> {
             }
             Prim::Complex => self.complex(node),
             Prim::Hypot3 => (format!("length(({}))", self.list(node)), Hold::Whole),
-            Prim::Polygamma(n) => (
-                format!("polygamma({n}, {})", self.list(node)),
-                Hold::Whole,
-            ),
+            Prim::Polygamma(n) => (format!("polygamma({n}, {})", self.list(node)), Hold::Whole),
             _ => {
                 let row = table::row(prim);
                 let name = row.names.first().copied().unwrap_or(row.mnemonic);
@@ -245,14 +252,25 @@ impl<'g> Writer<'g> {
     fn finish(mut self, roots: &[Id]) -> String {
         let mut out: Vec<String> = Vec::new();
         for &root in roots {
-            out.push(self.operand(root, if roots.len() > 1 { Hold::Sum } else { Hold::Choice }));
+            out.push(self.operand(
+                root,
+                if roots.len() > 1 {
+                    Hold::Sum
+                } else {
+                    Hold::Choice
+                },
+            ));
         }
         let mut text = if out.len() == 1 {
             out.remove(0)
         } else {
             format!("({})", out.join(", "))
         };
-        for (k, (name, value)) in std::mem::take(&mut self.shared).into_iter().rev().enumerate() {
+        for (k, (name, value)) in std::mem::take(&mut self.shared)
+            .into_iter()
+            .rev()
+            .enumerate()
+        {
             let lead = if k == 0 { "\n  where " } else { ",\n        " };
             let _ = write!(text, "{lead}{name} = {value}");
         }
@@ -266,7 +284,11 @@ fn leaf(names: &[String], k: u16, kind: &str) -> String {
 }
 
 fn number(x: f64) -> (String, Hold) {
-    let hold = if x.is_sign_negative() { Hold::Sum } else { Hold::Whole };
+    let hold = if x.is_sign_negative() {
+        Hold::Sum
+    } else {
+        Hold::Whole
+    };
     if x.is_nan() {
         return ("(0/0)".into(), Hold::Whole);
     }
@@ -275,5 +297,12 @@ fn number(x: f64) -> (String, Hold) {
     }
     let plain = format!("{x}");
     let short = format!("{x:e}");
-    (if short.len() < plain.len() { short } else { plain }, hold)
+    (
+        if short.len() < plain.len() {
+            short
+        } else {
+            plain
+        },
+        hold,
+    )
 }

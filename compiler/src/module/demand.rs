@@ -7,8 +7,8 @@ use crate::derive::{ComplexVariable, forward, gradient, jet};
 use crate::formula::Formula;
 use crate::ir::{Graph, Id, Ty};
 use crate::link::{Linker, Provider};
-use crate::stable::finish;
 use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
+use crate::stable::finish;
 
 /// Names of the stubs that are filled from a formula.
 pub const DEMANDS: [&str; 5] = ["field", "field_grad", "field_ray", "map", "map_jet"];
@@ -169,20 +169,15 @@ impl Demand<'_> {
             .collect();
         let t = Formula::leaf(&mut graph, 6, Ty::Real);
         let formula = self.formula.stabilised();
-        let roots = substitute(
-            &formula.graph,
-            &formula.value,
-            &mut graph,
-            |g, k| {
-                let k = usize::from(k);
-                let (o, d) = (
-                    Formula::leaf(g, k, Ty::Real),
-                    Formula::leaf(g, k + 3, Ty::Real),
-                );
-                let step = g.mul(t, d);
-                g.add(o, step)
-            },
-        );
+        let roots = substitute(&formula.graph, &formula.value, &mut graph, |g, k| {
+            let k = usize::from(k);
+            let (o, d) = (
+                Formula::leaf(g, k, Ty::Real),
+                Formula::leaf(g, k + 3, Ty::Real),
+            );
+            let step = g.mul(t, d);
+            g.add(o, step)
+        });
         let one = graph.real(1.0);
         let slope = forward(&mut graph, &roots, &[(t, one)]).map_err(LowerError::NoDerivative)?[0];
         let slope = slope.unwrap_or_else(|| graph.real(0.0));

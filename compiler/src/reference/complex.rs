@@ -286,8 +286,14 @@ impl Complex {
             let e = self.exp();
             return complex(e.re - 1.0, e.im);
         }
+        if self.im == 0.0 {
+            return complex(self.re.exp_m1(), self.im);
+        }
         let (sin, cos) = self.im.sin_cos();
         let half = (0.5 * self.im).sin();
+        if self.re == 0.0 {
+            return complex(-2.0 * half * half, sin); // an underflow keeps the sign
+        }
         complex(
             sum_of_products(self.re.exp_m1(), cos, -2.0 * half, half),
             self.re.exp() * sin,
@@ -309,6 +315,9 @@ impl Complex {
             } else {
                 complex(log_hypot(w.re, y), w.arg())
             };
+        }
+        if y == 0.0 {
+            return complex(x.ln_1p(), y);
         }
         let (xx, ex) = two_product(x, x);
         let (yy, ey) = two_product(y, y);

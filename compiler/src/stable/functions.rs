@@ -129,7 +129,8 @@ impl Pass {
         if two.constant.is_some() {
             return self.by(Rule::Sqrt, quotient);
         }
-        let (condition, written) = (positive(g, sum), two.written(g));
+        let size = g.apply(Prim::Abs, &[two.delta]);
+        let (condition, written) = (less(g, size, two.b), two.written(g));
         let chosen = choose(g, condition, quotient, written);
         self.by(Rule::Sqrt, chosen)
     }
@@ -158,9 +159,14 @@ impl Pass {
         let log = g.apply(Prim::Log1p, &[quotient]);
         if !two.is_real(g) {
             let upper_half = two.constant.is_some() && is_real(g, two.delta);
-            return if upper_half { self.by(Rule::Log, log) } else { None };
+            return if upper_half {
+                self.by(Rule::Log, log)
+            } else {
+                None
+            };
         }
         let size = g.apply(Prim::Abs, &[two.delta]);
+        let size = scaled(g, 2.0, size);
         let (condition, written) = (less(g, size, two.b), two.written(g));
         let chosen = choose(g, condition, log, written);
         self.by(Rule::Log, chosen)
@@ -272,10 +278,7 @@ impl Pass {
         h: Prim,
         factor: f64,
     ) -> Option<Id> {
-        let (half, middle) = (
-            scaled(g, 0.5, two.delta),
-            self.total(g, 0.5, two.a, two.b)?,
-        );
+        let (half, middle) = (scaled(g, 0.5, two.delta), self.total(g, 0.5, two.a, two.b)?);
         let (small, large) = (g.apply(f, &[half]), g.apply(h, &[middle]));
         let double = scaled(g, factor, small);
         Some(g.mul(double, large))
@@ -388,10 +391,10 @@ impl Pass {
         let numerator = self.built(g, rest, depth.checked_sub(1)?);
         let sum = g.add(root, w);
         let quotient = g.div(numerator, sum);
-        if b.is_empty() {
-            return self.by(Rule::Conjugate, quotient);
-        }
-        let (condition, written) = (positive(g, w), g.sub(root, w));
+        // beyond, nothing cancels, and numerator or root may be infinite; for w ≤ 0 it does not hold
+        let limit = scaled(g, 4.0, w);
+        let condition = less(g, root, limit);
+        let written = g.sub(root, w);
         let chosen = choose(g, condition, quotient, written);
         self.by(Rule::Conjugate, chosen)
     }
@@ -428,7 +431,11 @@ impl Pass {
                 if !self.on(Rule::CosMinusOne) {
                     return None;
                 }
-                let (wave, factor) = if k > 0.0 { (Prim::Sin, -2.0) } else { (Prim::Cos, 2.0) };
+                let (wave, factor) = if k > 0.0 {
+                    (Prim::Sin, -2.0)
+                } else {
+                    (Prim::Cos, 2.0)
+                };
                 let new = twice_square(g, wave, a, factor);
                 self.by(Rule::CosMinusOne, new)
             }

@@ -24,6 +24,7 @@ impl Pass {
                 let quotient = self.exp_product(g, a, b, -1.0);
                 let quotient = quotient.or_else(|| self.exp_ratio(g, a, b));
                 let quotient = quotient.or_else(|| self.tan_half(g, a, b));
+                let quotient = quotient.or_else(|| self.ratio(g, a, b));
                 quotient.or_else(|| self.constants(g, Prim::Div, a, b))
             }
             (Prim::Pow, &[base, exponent]) => self.compound_power(g, id, base, exponent),
@@ -77,7 +78,7 @@ impl Pass {
                 let new = Self::times_log(g, f64::from(n), x);
                 self.by(Rule::LogPower, new)
             }
-            (Some(Prim::Div), &[n, d]) => self.log_of_quotient(g, n, d),
+            (Some(Prim::Div), &[n, d]) => self.log_of_quotient(g, a, n, d),
             _ => None,
         };
         let found = found.or_else(|| self.inverse_hyperbolic(g, a));
@@ -123,14 +124,25 @@ impl Pass {
         self.by(Rule::LogAbs, new)
     }
 
-    /// log(a/b) = log1p((a - b)/b)
-    fn log_of_quotient(&mut self, g: &mut Graph, a: Id, b: Id) -> Option<Id> {
+    /// log(a/b) = 2 atanh((a - b)/(a + b)) where a + b is a constant, else log1p((a - b)/b)
+    fn log_of_quotient(&mut self, g: &mut Graph, written: Id, a: Id, b: Id) -> Option<Id> {
         if !is_real(g, a) || !is_real(g, b) || !self.on(Rule::LogQuotient) {
             return None;
         }
         let difference = self.difference(g, a, b, 4)?;
+        let sum = self.total(g, 1.0, a, b)?;
+        if let Some(c) = super::guard::nonzero_constant(g, sum) {
+            let c = g.real(c);
+            let half = g.div(difference, c);
+            let atanh = g.apply(Prim::Atanh, &[half]);
+            let new = super::guard::scaled(g, 2.0, atanh);
+            return self.by(Rule::LogQuotient, new);
+        }
         let quotient = g.div(difference, b);
         let new = g.apply(Prim::Log1p, &[quotient]);
+        let condition = super::guard::within(g, quotient, 0.5);
+        let written = g.apply(Prim::Log, &[written]);
+        let new = super::guard::choose(g, condition, new, written);
         self.by(Rule::LogQuotient, new)
     }
 
@@ -147,15 +159,15 @@ impl Pass {
             return None;
         }
         for (x, root) in [(x, y), (y, x)] {
-            let Some(inner) =
-                only_atom(root).and_then(|r| self.argument(g, r, Prim::Sqrt))
-            else {
+            let Some(inner) = only_atom(root).and_then(|r| self.argument(g, r, Prim::Sqrt)) else {
                 continue;
             };
             let mut square = Polynomial::default();
             square.terms.push((x.clone(), 1.0));
             let square = square.mul(&square)?;
-            let rest = self.polynomial(g, inner, Expand::Constants)?.add(&square, -1.0)?;
+            let rest = self
+                .polynomial(g, inner, Expand::Constants)?
+                .add(&square, -1.0)?;
             let f = match rest.constant() {
                 Some(1.0) => Prim::Asinh,
                 Some(-1.0) => Prim::Acosh,
@@ -207,6 +219,55 @@ impl Pass {
         let one = g.real(-1.0);
         let new = g.div(one, below);
         self.by(Rule::ExpRatio, new)
+    }
+
+    /// sinh a/cosh a = tanh a and its inverse, expm1(2a)/expm1 a = exp a + 1, up to constants
+    fn ratio(&mut self, g: &mut Graph, n: Id, d: Id) -> Option<Id> {
+        if !self.on(Rule::Ratio) || !is_real(g, n) || !is_real(g, d) {
+            return None;
+        }
+        let function = |id: Id| -> Option<(f64, Prim, Id)> {
+            let scaled = |id: Id| {
+                let node = g.node(id);
+                match (node.op, node.args.as_slice()) {
+                    (crate::ir::Op::Apply(Prim::Mul), &[c, x]) => Some((g.as_real(c)?, x)),
+                    _ => Some((1.0, id)),
+                }
+            };
+            let (c, f) = scaled(id)?;
+            let node = g.node(f);
+            match (node.op, node.args.as_slice()) {
+                (crate::ir::Op::Apply(prim), &[a]) => Some((c, prim, a)),
+                _ => None,
+            }
+        };
+        let ((c, f, a), (e, h, b)) = (function(n)?, function(d)?);
+        let factor = c / e;
+        if factor * e != c || !factor.is_finite() || factor == 0.0 {
+            return None;
+        }
+        let value = match (f, h) {
+            (Prim::Sinh, Prim::Cosh) if a == b => g.apply(Prim::Tanh, &[a]),
+            (Prim::Cosh, Prim::Sinh) if a == b => {
+                let tanh = g.apply(Prim::Tanh, &[a]);
+                let one = g.real(1.0);
+                g.div(one, tanh)
+            }
+            (Prim::Expm1, Prim::Expm1) => {
+                let (p, q) = (
+                    self.polynomial(g, a, Expand::Constants)?,
+                    self.polynomial(g, b, Expand::Constants)?,
+                );
+                if !p.add(&q, -2.0)?.terms.is_empty() {
+                    return None;
+                }
+                let (exp, one) = (g.apply(Prim::Exp, &[b]), g.real(1.0));
+                g.add(exp, one)
+            }
+            _ => return None,
+        };
+        let new = super::guard::scaled(g, factor, value);
+        self.by(Rule::Ratio, new)
     }
 
     /// (1 - cos a)/sin a = tan(a/2)

@@ -8,6 +8,7 @@
 //! run over what is computed in the end, values and derivatives alike. The `f64` reference runs none: it computes
 //! what is written.
 
+mod explain;
 mod functions;
 mod guard;
 mod identity;
@@ -19,6 +20,7 @@ mod remainder;
 mod rule;
 mod sum;
 
+pub use explain::{Explanation, Step, explain};
 pub use pass::{Applied, Stable, stabilise};
 pub use rule::{RULES, Record, Rewrites, Rule};
 

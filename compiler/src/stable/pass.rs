@@ -50,13 +50,32 @@ pub fn stabilise(graph: &Graph, roots: &[Id], rewrites: Rewrites, phase: Phase) 
             applied: Vec::new(),
         };
     }
-    let live = out.reachable(&new_roots);
-    pass.applied.retain(|a| live[a.after.index()]);
+    keep_live(&out, &new_roots, &mut pass.applied);
     Stable {
         graph: out,
         roots: new_roots,
         applied: pass.applied,
     }
+}
+
+/// Keeps the rewrites whose results are used, by the roots or by what was rewritten again.
+fn keep_live(g: &Graph, roots: &[Id], applied: &mut Vec<Applied>) {
+    let mut live = g.reachable(roots);
+    let mut kept = Vec::new();
+    for step in applied.drain(..).rev() {
+        if !live[step.after.index()] {
+            continue;
+        }
+        let mut stack = vec![step.before];
+        while let Some(id) = stack.pop() {
+            if !std::mem::replace(&mut live[id.index()], true) {
+                stack.extend(g.node(id).args.iter().copied());
+            }
+        }
+        kept.push(step);
+    }
+    kept.reverse();
+    *applied = kept;
 }
 
 /// For each node that [`transcribe`] asks about, in its order: whether something else than a sum needs it.
@@ -103,6 +122,8 @@ pub(super) struct Pass {
     applied: Vec<Applied>,
     /// Whether differences that are not simplified count, too, where they are of inputs.
     pub(super) inputs_too: bool,
+    /// Whether the sum at hand has just two terms.
+    pub(super) alone: bool,
     /// Steps left for the rewrite at hand.
     pub(super) patience: usize,
 }
@@ -117,6 +138,7 @@ impl Pass {
             lost: SmallVec::new(),
             applied: Vec::new(),
             inputs_too: false,
+            alone: false,
             patience: 0,
         }
     }

@@ -27,6 +27,8 @@ pub struct Polynomial {
     pub terms: SmallVec<[(Monomial, f64); 8]>,
     /// How many pairs of terms have cancelled each other, wholly or in part.
     pub cancelled: usize,
+    /// How many terms have cancelled wholly.
+    pub vanished: usize,
     /// What has cancelled wholly.
     pub lost: SmallVec<[Monomial; 2]>,
 }
@@ -77,6 +79,7 @@ impl Polynomial {
     /// Adds `factor` times another one; `None` where a coefficient is not exact or it gets too long.
     pub fn add(mut self, other: &Self, factor: f64) -> Option<Self> {
         self.cancelled += other.cancelled;
+        self.vanished += other.vanished;
         for lost in &other.lost {
             self.lost.push(lost.clone());
         }
@@ -101,6 +104,7 @@ impl Polynomial {
         let sum = exact_sum(old, value)?;
         if sum == 0.0 {
             self.terms.remove(k);
+            self.vanished += 1;
             if !monomial.is_empty() {
                 self.lost.push(monomial.clone());
             }
@@ -114,6 +118,7 @@ impl Polynomial {
     pub fn mul(&self, other: &Self) -> Option<Self> {
         let mut out = Self {
             cancelled: self.cancelled + other.cancelled,
+            vanished: self.vanished + other.vanished,
             ..Self::default()
         };
         for lost in self.lost.iter().chain(&other.lost) {
@@ -154,7 +159,7 @@ fn exact_sum(a: f64, b: f64) -> Option<f64> {
     (error == 0.0 && sum.is_finite()).then_some(sum)
 }
 
-fn exact_product(a: f64, b: f64) -> Option<f64> {
+pub fn exact_product(a: f64, b: f64) -> Option<f64> {
     let product = a * b;
     let exact = product.is_finite() && (product == 0.0) == (a == 0.0 || b == 0.0);
     (exact && a.mul_add(b, -product) == 0.0).then_some(product)
@@ -187,7 +192,12 @@ struct Reader<'a> {
 
 /// No deeper than [`MAX_DEPTH`].
 fn read(reader: &Reader, id: Id, depth: usize) -> Option<Polynomial> {
-    let &Reader { g, plain, expand, left } = reader;
+    let &Reader {
+        g,
+        plain,
+        expand,
+        left,
+    } = reader;
     let depth = depth.checked_sub(1)?;
     left.set(left.get().checked_sub(1)?);
     let node = g.node(plain(id));
@@ -208,10 +218,14 @@ fn read(reader: &Reader, id: Id, depth: usize) -> Option<Polynomial> {
             let (Some(p), Some(q)) = (go(a), go(b)) else {
                 return atom();
             };
-            product(&p, &q, expand).map_or_else(atom, Some)
+            product(&p, &q, expand)
+                .or_else(|| as_factor(p, a).mul(&as_factor(q, b)))
+                .map_or_else(atom, Some)
         }
         (Op::Apply(Prim::Div), &[a, b]) => {
-            let inverse = constant(g, b).filter(|b| is_power_of_two(*b)).map(f64::recip);
+            let inverse = constant(g, b)
+                .filter(|b| is_power_of_two(*b))
+                .map(f64::recip);
             match (inverse, go(a)) {
                 (Some(inverse), Some(p)) => Polynomial::default().add(&p, inverse),
                 _ => atom(),
@@ -219,16 +233,23 @@ fn read(reader: &Reader, id: Id, depth: usize) -> Option<Polynomial> {
         }
         (Op::Apply(Prim::PowInt(n @ 2..=8)), &[a]) => {
             let Some(p) = go(a) else { return atom() };
-            let mut out = Polynomial::one();
-            for _ in 0..n {
-                match product(&out, &p, expand) {
-                    Some(next) => out = next,
-                    None => return atom(),
-                }
-            }
-            Some(out)
+            let power = |p: &Polynomial| {
+                (0..n).try_fold(Polynomial::one(), |out, _| product(&out, p, expand))
+            };
+            power(&p)
+                .or_else(|| power(&as_factor(p, a)))
+                .map_or_else(atom, Some)
         }
         _ => atom(),
+    }
+}
+
+/// A sum as one factor.
+fn as_factor(p: Polynomial, id: Id) -> Polynomial {
+    if p.terms.len() <= 1 {
+        p
+    } else {
+        Polynomial::atom(id)
     }
 }
 
@@ -280,7 +301,9 @@ pub fn build_term(g: &mut Graph, monomial: &Monomial, coefficient: f64) -> Id {
 
 /// The polynomial as nodes: a term that is added comes first, where there is one.
 pub fn build(g: &mut Graph, terms: &[(Monomial, f64)]) -> Id {
-    let first = terms.iter().position(|(m, value)| *value > 0.0 && !m.is_empty());
+    let first = terms
+        .iter()
+        .position(|(m, value)| *value > 0.0 && !m.is_empty());
     let first = first.or_else(|| terms.iter().position(|(_, value)| *value > 0.0));
     let first = first.unwrap_or(0);
     let Some((monomial, value)) = terms.get(first) else {
@@ -292,7 +315,11 @@ pub fn build(g: &mut Graph, terms: &[(Monomial, f64)]) -> Id {
             continue;
         }
         let term = build_term(g, monomial, value.abs());
-        out = if *value < 0.0 { g.sub(out, term) } else { g.add(out, term) };
+        out = if *value < 0.0 {
+            g.sub(out, term)
+        } else {
+            g.add(out, term)
+        };
     }
     out
 }

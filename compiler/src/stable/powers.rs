@@ -52,7 +52,9 @@ impl Pass {
         let small = g.apply(Prim::Expm1, &[log]);
         let product = g.mul(v, small);
         let size = g.apply(Prim::Abs, &[delta]);
-        let (condition, written) = (less(g, size, b), g.sub(u, v));
+        let conditions = [less(g, size, b), within(g, log, 100.0)];
+        let condition = g.apply(Prim::And, &conditions);
+        let written = g.sub(u, v);
         let new = choose(g, condition, product, written);
         self.by(Rule::PowerDifference, new)
     }
@@ -72,7 +74,9 @@ impl Pass {
         let log = g.apply(Prim::Log1p, &[rest]);
         let log = g.mul(exponent, log);
         let power = g.apply(Prim::Exp, &[log]);
-        let condition = within(g, rest, 1.0 / 256.0);
+        // an infinite b times 0 is no exponent
+        let conditions = [within(g, rest, 1.0 / 256.0), within(g, log, 100.0)];
+        let condition = g.apply(Prim::And, &conditions);
         let new = choose(g, condition, power, written);
         self.by(Rule::CompoundPower, new)
     }

@@ -58,7 +58,9 @@ impl Pass {
         self.shorten(g, &mut numerator, &mut divisors);
         // the divisors with more terms first: what the numerator is near to
         divisors.sort_by_key(|&d| {
-            let terms = self.polynomial(g, d, Expand::Constants).map(|p| p.terms.len());
+            let terms = self
+                .polynomial(g, d, Expand::Constants)
+                .map(|p| p.terms.len());
             std::cmp::Reverse(terms.unwrap_or(1))
         });
         let mut out = numerator;
@@ -98,6 +100,10 @@ impl Pass {
                     self.built(g, rest_without_marks(rest), depth)
                 });
             }
+            // only a part of a term has gone: a + b of like size remains, as before
+            if rest.cancelled > 0 {
+                return None;
+            }
         }
         // a common factor of both is taken out: f/√a - f/√b
         self.difference(g, a, b, depth)
@@ -130,13 +136,15 @@ impl Pass {
             return;
         };
         let mut monomial = monomial.clone();
-        divisors.retain(|d| match monomial.iter_mut().find(|(atom, p)| atom == d && *p > 0) {
-            Some(slot) => {
-                slot.1 -= 1;
-                false
-            }
-            None => true,
-        });
+        divisors.retain(
+            |d| match monomial.iter_mut().find(|(atom, p)| atom == d && *p > 0) {
+                Some(slot) => {
+                    slot.1 -= 1;
+                    false
+                }
+                None => true,
+            },
+        );
         monomial.retain(|(_, p)| *p != 0);
         *numerator = super::polynomial::build_term(g, &monomial, *value);
     }

@@ -62,23 +62,23 @@ rules! {
         "discrete product rule";
     Squares "squares", false, "real and complex":
         "a² - b² = (a - b)·(a + b)",
-        "everywhere; of reals |a| and |b| are taken, so that an exact zero is +0 as written. a² may overflow where the product does not. Not before differentiation: (2a)' is better than the derivative of the product",
+        "reals everywhere, in a sum of two terms; |a| and |b| are taken, so that an exact zero is +0 as written. Complex a and constant b: only the real part is taken from the product, the imaginary part from a², where it does not cancel and its sign chooses the side of a cut. a² may overflow where the product does not. Not before differentiation: (2a)' is better than the derivative of the product",
         "D. Goldberg, What every computer scientist should know about floating-point arithmetic, ACM Comput. Surv. 23 (1991), section 1.4";
     Cubes "cubes", false, "real and complex":
-        "a³ - b³ = (a - b)·(a² + a·b + b²)",
-        "reals everywhere: the second factor does not cancel; complex numbers only where a - b is simplified",
+        "a³ - b³ = (a - b)·(a² + a·b + b²), and so on for aⁿ - bⁿ, n = 5, 7",
+        "reals everywhere for n = 3, where the second factor is 3/4·(a + b)² + 1/4·(a - b)²; else only where a - b is simplified. For n = 5 and 7 the sum in the second factor may be NaN where the powers overflow; infinite a and b of opposite signs give NaN",
         "factorisation";
     ComplexSquares "complex-squares", false, "complex":
         "z² + c² = (z - c·i)·(z + c·i)",
-        "c a constant; everywhere",
+        "c a constant; everywhere, the imaginary part from z²",
         "factorisation over the complex numbers";
     Sqrt "sqrt-difference", true, "real; complex where a - b is a real constant":
         "√a - √b = (a - b)/(√a + √b)",
-        "where a - b is simplified, or a and b are inputs; guarded by √a + √b > 0 where a - b can vanish. NaN for negative reals as written; for a, b → ∞ the limit 0 instead of NaN",
+        "where a - b is simplified, or a and b are inputs; guarded by |a - b| < b unless a - b is constant. NaN for negative reals as written; where a - b is constant, the limit 0 instead of NaN for a, b → ∞",
         "Higham, section 1.8";
     Conjugate "conjugate", true, "real":
         "√a - b = (a - b²)/(√a + b) for b > 0",
-        "where a - b² is simplified; for b ≤ 0 and NaN as written. This is the stable quadratic formula",
+        "where a - b² is simplified; guarded by √a < 4b, else as written. This is the stable quadratic formula",
         "G. E. Forsythe, How do you solve a quadratic equation?, Stanford CS 40 (1966); Higham, section 1.8";
     Cbrt "cbrt-difference", true, "real":
         "cbrt a - cbrt b = (a - b)/(cbrt²a + cbrt a·cbrt b + cbrt²b)",
@@ -86,11 +86,11 @@ rules! {
         "factorisation of a³ - b³";
     Log "log-difference", true, "real; complex where a - b is a real constant":
         "log a - log b = log1p((a - b)/b)",
-        "where a - b is simplified, or a and b are inputs; reals guarded by |a - b| < b, else as written, so that logarithms of negative numbers stay NaN and those of 0 infinite",
+        "where a - b is simplified, or a and b are inputs; reals guarded by 2|a - b| < b, else as written, so that logarithms of negative numbers stay NaN and those of 0 infinite",
         "W. Kahan, Branch cuts for complex elementary functions (1987), section 5";
     LogQuotient "log-quotient", true, "real":
-        "log(a/b) = log1p((a - b)/b)",
-        "where a - b is simplified; negative quotients stay NaN, a/b = 0 is -∞",
+        "log(a/b) = log1p((a - b)/b), 2·atanh((a - b)/(a + b)) where a + b is constant",
+        "where a - b is simplified; the first guarded by |(a - b)/b| < 1/2; negative quotients stay NaN, a/b = 0 is -∞",
         "definition of log1p";
     Log1p "log1p", true, "real and complex":
         "log(1 + a) = log1p(a)",
@@ -126,19 +126,23 @@ rules! {
         "DLMF 4.8";
     ExpRatio "exp-ratio", true, "real":
         "exp a/(exp a - 1) = -1/expm1(-a)",
-        "everywhere; 1 instead of NaN where exp a overflows",
+        "everywhere; 1 instead of NaN where exp a overflows; at a = -0 the infinity of that side",
         "Higham, section 1.14";
+    Ratio "exponential-ratio", true, "real":
+        "sinh a/cosh a = tanh a, expm1(2a)/expm1 a = exp a + 1",
+        "everywhere; the limit instead of NaN where both overflow, and 2 instead of NaN at a = 0 for the second",
+        "DLMF 4.28.8";
     PowerMinusOne "power-minus-one", true, "real":
         "a^b - 1 = expm1(b·log a)",
         "guarded by |b·log a| < 1/2, else as written; log a is log1p(a - 1) where a - 1 is simplified",
         "Higham, problem 1.5";
     PowerDifference "power-difference", true, "real":
         "a^p - b^p = b^p·expm1(p·log1p((a - b)/b))",
-        "where a - b is simplified; guarded by |a - b| < b, else as written",
+        "where a - b is simplified; guarded by |a - b| < b and |p·log1p(…)| < 100, else as written",
         "as log-difference";
     CompoundPower "compound-power", true, "real":
         "(1 + a)^b = exp(b·log1p a)",
-        "guarded by |a| < 2⁻⁸, else as written; a no constant, b no integer constant. 1 + a would lose the digits of a, and b magnifies that",
+        "guarded by |a| < 2⁻⁸ and |b·log1p a| < 100, else as written; a no constant, b no integer constant. 1 + a would lose the digits of a, and b magnifies that",
         "Goldberg, section 1.4 (interest)";
     CosMinusOne "one-minus-cos", true, "real and complex":
         "1 - cos a = 2·sin²(a/2), 1 + cos a = 2·cos²(a/2)",
@@ -186,7 +190,7 @@ rules! {
         "factorisation";
     Hypot "hypot", true, "real":
         "√(a² + b²) = hypot(a, b), √(a² + b² + c²) = length(a, b, c), √(a²) = |a|",
-        "everywhere, constants that are squares among the terms, too; does not overflow, nor underflow, where the result does not",
+        "everywhere, constants that are squares among the terms, too; does not overflow, nor underflow, where the result does not. As in C99, infinite where an argument is, even beside a NaN",
         "W. Kahan 1987; C99 7.12.7.3";
     Asinh "asinh", true, "real":
         "log(x + √(x² + 1)) = asinh x, log(x + √(x² - 1)) = acosh x",

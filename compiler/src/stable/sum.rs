@@ -6,10 +6,11 @@ use super::Phase;
 use super::guard::is_real;
 use super::pass::{Pass, only_atom};
 use super::polynomial::{
-    Expand, Monomial, Polynomial, build, build_monomial, build_term, monomial_product,
+    Expand, Monomial, Polynomial, build, build_monomial, build_term, exact_product,
+    monomial_product,
 };
 use super::rule::Rule;
-use crate::ir::{Graph, Id, Prim};
+use crate::ir::{Graph, Id, Op, Prim};
 
 /// Most terms of a sum whose pairs are looked at.
 const MAX_PAIRED: usize = 8;
@@ -78,7 +79,11 @@ impl Pass {
 
     fn improve(&mut self, g: &mut Graph, mut p: Polynomial, depth: usize) -> Option<Id> {
         let mut changed = false;
-        if p.cancelled > 0 {
+        if p.cancelled > 0 && p.vanished == 0 {
+            // 3a - 2a: written so, and as good
+            return None;
+        }
+        if p.vanished > 0 {
             if !self.on(Rule::Cancel) {
                 return None;
             }
@@ -115,7 +120,10 @@ impl Pass {
             for j in i + 1..terms.len() {
                 self.patience = self.patience.checked_sub(1)?;
                 let (used, lost) = self.marks();
-                let Some(node) = self.pair(g, &terms[i], &terms[j], depth) else {
+                let alone = std::mem::replace(&mut self.alone, terms.len() == 2);
+                let found = self.pair(g, &terms[i], &terms[j], depth);
+                self.alone = alone;
+                let Some(node) = found else {
                     self.reset(used, lost);
                     continue;
                 };
@@ -132,7 +140,10 @@ impl Pass {
         let common = common(&first.0, &second.0);
         let rest = |m: &Monomial| monomial_product(m, &inverse(&common));
         let (a, b) = (rest(&first.0)?, rest(&second.0)?);
-        for ((a, x), (b, y)) in [((&a, first.1), (&b, second.1)), ((&b, second.1), (&a, first.1))] {
+        for ((a, x), (b, y)) in [
+            ((&a, first.1), (&b, second.1)),
+            ((&b, second.1), (&a, first.1)),
+        ] {
             // x a + y b = x (a - k b)
             let k = -y / x;
             if a.is_empty() || !k.is_finite() || k * x != -y || x.mul_add(k, y) != 0.0 {
@@ -142,8 +153,7 @@ impl Pass {
                 continue;
             };
             if common.is_empty() {
-                let x = g.real(x);
-                return Some(g.mul(x, difference));
+                return Some(times(g, x, difference));
             }
             if !self.on(Rule::Factor) {
                 return None;
@@ -202,17 +212,38 @@ impl Pass {
         if !self.on(Rule::Squares) {
             return None;
         }
-        if let Some(simple) = self.difference(g, u, v, depth) {
+        if is_real(g, u)
+            && let Some(simple) = self.difference(g, u, v, depth)
+        {
             let sum = self.total(g, 1.0, u, v)?;
             let product = g.mul(simple, sum);
             return self.by(Rule::Squares, product);
         }
-        let real = is_real(g, u) && is_real(g, v);
-        let size = |g: &mut Graph, id| if real { g.apply(Prim::Abs, &[id]) } else { id };
-        let (u, v) = (size(g, u), size(g, v));
+        // beside a third term, the rounding of a² is not what counts
+        if !self.alone {
+            return None;
+        }
+        if !is_real(g, u) {
+            let product = self.squares_of_parts(g, a, u, v)?;
+            return self.by(Rule::Squares, product);
+        }
+        let (u, v) = (g.apply(Prim::Abs, &[u]), g.apply(Prim::Abs, &[v]));
         let (difference, sum) = (g.sub(u, v), g.add(u, v));
         let product = g.mul(difference, sum);
         self.by(Rule::Squares, product)
+    }
+
+    /// z² - v² for a constant v: the real part of (z - v)(z + v), and the imaginary part of z², which does not cancel
+    /// and whose sign chooses the side of a cut.
+    fn squares_of_parts(&self, g: &mut Graph, square: &Monomial, z: Id, v: Id) -> Option<Id> {
+        if g.as_real(v).is_none() && g.as_complex(v).is_none() {
+            return None;
+        }
+        let (left, right) = (g.sub(z, v), g.add(z, v));
+        let product = g.mul(left, right);
+        let square = build_monomial(g, square)?;
+        let parts = [g.apply(Prim::Re, &[product]), g.apply(Prim::Im, &[square])];
+        Some(g.apply(Prim::Complex, &parts))
     }
 
     /// z² + c² = (z - c i)(z + c i)
@@ -223,7 +254,7 @@ impl Pass {
         k: f64,
         b: &Monomial,
     ) -> Option<Id> {
-        if !b.is_empty() || !self.on(Rule::ComplexSquares) {
+        if !self.alone || !b.is_empty() || !self.on(Rule::ComplexSquares) {
             return None;
         }
         let (z, c) = self.roots(g, a, -k, b, 2)?;
@@ -231,13 +262,12 @@ impl Pass {
         if is_real(g, z) {
             return None;
         }
-        let (plus, minus) = (g.complex(0.0, c), g.complex(0.0, -c));
-        let (left, right) = (g.add(z, minus), g.add(z, plus));
-        let product = g.mul(left, right);
+        let c = g.complex(0.0, c);
+        let product = self.squares_of_parts(g, a, z, c)?;
         self.by(Rule::ComplexSquares, product)
     }
 
-    /// a³ - b³ = (a - b)(a² + a b + b²)
+    /// aⁿ - bⁿ = (a - b)(aⁿ⁻¹ + aⁿ⁻² b + … + bⁿ⁻¹), n odd
     fn by_cubes(
         &mut self,
         g: &mut Graph,
@@ -249,36 +279,36 @@ impl Pass {
         if !self.on(Rule::Cubes) {
             return None;
         }
-        let (u, v) = self.roots(g, a, k, b, 3)?;
+        let found = [3, 5, 7]
+            .into_iter()
+            .find_map(|n| Some((n, self.roots(g, a, k, b, n)?)));
+        let (n, (u, v)) = found?;
         let real = is_real(g, u) && is_real(g, v);
         let difference = match self.difference(g, u, v, depth) {
             Some(simple) => simple,
-            None if real => g.sub(u, v),
+            None if real && n == 3 && self.alone => g.sub(u, v),
             None => return None,
         };
-        let sum = sum_of_three_products(g, u, v);
+        let sum = if n == 3 {
+            sum_of_three_products(g, u, v)
+        } else {
+            power_sum(g, u, v, n)
+        };
         let product = g.mul(difference, sum);
         self.by(Rule::Cubes, product)
     }
 
     /// u and v with uⁿ = a and vⁿ = k b, where both are monomials.
-    fn roots(
-        &self,
-        g: &mut Graph,
-        a: &Monomial,
-        k: f64,
-        b: &Monomial,
-        n: i32,
-    ) -> Option<(Id, Id)> {
+    fn roots(&self, g: &mut Graph, a: &Monomial, k: f64, b: &Monomial, n: i32) -> Option<(Id, Id)> {
         if a.iter().chain(b).any(|(_, power)| power % n != 0) {
             return None;
         }
-        #[allow(clippy::cast_possible_truncation, reason = "only small numbers are roots here")]
         let root = match n {
             2 => k.sqrt(),
-            _ => k.cbrt().round(),
+            _ => k.abs().powf(1.0 / f64::from(n)).round().copysign(k),
         };
-        if !root.is_finite() || root.powi(n) != k || root.abs() > 1e6 {
+        let power = (1..n).try_fold(root, |power, _| exact_product(power, root));
+        if !root.is_finite() || power != Some(k) || root.abs() > 1e6 {
             return None;
         }
         let part = |m: &Monomial| -> Monomial { m.iter().map(|&(a, p)| (a, p / n)).collect() };
@@ -329,12 +359,41 @@ impl Pass {
     }
 }
 
-/// u² + u v + v²
+/// x a, the sign inside of a quotient of a constant.
+fn times(g: &mut Graph, x: f64, a: Id) -> Id {
+    let node = g.node(a);
+    if let (true, Op::Apply(Prim::Div), &[n, d]) = (x < 0.0, node.op, node.args.as_slice())
+        && let Some(n) = g.as_real(n)
+    {
+        let n = g.real(-n);
+        let quotient = g.div(n, d);
+        let size = g.real(-x);
+        return g.mul(size, quotient);
+    }
+    let x = g.real(x);
+    g.mul(x, a)
+}
+
+/// uⁿ⁻¹ + uⁿ⁻² v + … + vⁿ⁻¹
+fn power_sum(g: &mut Graph, u: Id, v: Id, n: i32) -> Id {
+    let mut sum = g.add(u, v);
+    for k in 2..n {
+        let power = g.apply(Prim::PowInt(k), &[v]);
+        let product = g.mul(sum, u);
+        sum = g.add(product, power);
+    }
+    sum
+}
+
+/// u² + u v + v² = 3/4 (u + v)² + 1/4 (u - v)², where no infinity meets a zero
 pub(super) fn sum_of_three_products(g: &mut Graph, u: Id, v: Id) -> Id {
-    let squares = [u, v].map(|x| g.apply(Prim::PowInt(2), &[x]));
-    let mixed = g.mul(u, v);
-    let sum = g.add(squares[0], mixed);
-    g.add(sum, squares[1])
+    let (sum, difference) = (g.add(u, v), g.sub(u, v));
+    let [plus, minus] = [(0.75, sum), (0.25, difference)].map(|(factor, x)| {
+        let factor = g.real(factor);
+        let square = g.apply(Prim::PowInt(2), &[x]);
+        g.mul(factor, square)
+    });
+    g.add(plus, minus)
 }
 
 /// What two monomials share.

@@ -9,7 +9,7 @@ use pullback_runtime::AtomicFile;
 
 use super::failure::Failure;
 use super::source::Source;
-use super::{Console, Input, Numbers, Output, Which, render};
+use super::{Console, Input, Numbers, Output, Rules, Which, render};
 
 /// Arguments of `pullback emit`.
 #[derive(Debug, Args)]
@@ -26,6 +26,8 @@ pub(super) struct EmitArguments {
     which: Which,
     #[command(flatten)]
     numbers: Numbers,
+    #[command(flatten)]
+    rules: Rules,
     #[command(flatten)]
     output: Output,
 }
@@ -64,7 +66,7 @@ pub(super) fn run(arguments: &EmitArguments, console: &Console) -> Result<(), Fa
             "name a file with -o",
         ));
     }
-    let source = Source::open(&arguments.input, console)?;
+    let source = Source::open(&arguments.input, console)?.with_rewrites(arguments.rules);
     let target = match arguments.target {
         Language::Wgsl => Target::Wgsl,
         Language::Glsl => Target::Glsl,

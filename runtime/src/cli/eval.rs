@@ -13,7 +13,7 @@ use pullback_runtime::rows::{self, Number, RowError, RowReader};
 use super::failure::Failure;
 use super::progress::Progress;
 use super::source::Source;
-use super::{Console, Device, Input, Numbers, Settings, Which, overrides};
+use super::{Console, Device, Input, Numbers, Rules, Settings, Which, overrides};
 
 /// Rows that are read, evaluated and written at a time.
 const BATCH: usize = 1 << 17;
@@ -33,6 +33,8 @@ pub(super) struct EvalArguments {
     on: Place,
     #[command(flatten)]
     numbers: Numbers,
+    #[command(flatten)]
+    rules: Rules,
     #[command(flatten)]
     which: Which,
     /// Rows of numbers, one column for each real argument, two for a complex one, three for a vec3; # comments;
@@ -76,7 +78,7 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
             "the standard input cannot be both the program and the points",
         ));
     }
-    let source = Source::open(&arguments.input, console)?;
+    let source = Source::open(&arguments.input, console)?.with_rewrites(arguments.rules);
     let what = match arguments.what {
         Part::Value => What::Value,
         Part::Gradient => What::Gradient,

@@ -15,7 +15,7 @@ use pullback_runtime::{
 use super::failure::Failure;
 use super::progress::{Counted, Progress};
 use super::source::Source;
-use super::{Console, Device, Input, Numbers, Output, Settings, Which, overrides};
+use super::{Console, Device, Input, Numbers, Output, Rules, Settings, Which, overrides};
 
 /// Arguments of `pullback render`.
 #[derive(Debug, Args)]
@@ -48,6 +48,8 @@ pub(super) struct RenderArguments {
     which: Which,
     #[command(flatten)]
     numbers: Numbers,
+    #[command(flatten)]
+    rules: Rules,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -58,7 +60,7 @@ enum Stage {
 
 /// Draws the picture and writes it.
 pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), Failure> {
-    let source = Source::open(&arguments.input, console)?;
+    let source = Source::open(&arguments.input, console)?.with_rewrites(arguments.rules);
     let index = source.picture(arguments.which, console)?;
     let picture = &source.program.pictures()[index];
     let (params, mut settings) =

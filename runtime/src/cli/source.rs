@@ -10,7 +10,7 @@ use pullback_grammar::Diagnostic;
 use pullback_grammar::ast::MAX_SOURCE_BYTES;
 
 use super::failure::Failure;
-use super::{Console, Input, Which};
+use super::{Console, Input, Rules, Which};
 
 /// A program and the text that it comes from.
 pub(super) struct Source {
@@ -43,6 +43,12 @@ impl Source {
             }),
             _ => Err(Failure::Program),
         }
+    }
+
+    /// The program with these stability rewrites.
+    pub(super) fn with_rewrites(mut self, rules: Rules) -> Self {
+        self.program = self.program.with_rewrites(rules.rewrites);
+        self
     }
 
     /// Index of the picture that is meant; the first if none is named.

@@ -1,0 +1,451 @@
+//! Stability rewrites: what each gains, and that none loses, against exact values.
+//!
+//! tests/oracle/rewrites.py has made the tables. Both forms are evaluated in binary64, operation by operation, so the
+//! numbers are those of the forms and hang on no adapter.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use pullback_compiler::compile;
+use pullback_compiler::eval::{Leaves, Tape};
+use pullback_compiler::formula::Formula;
+use pullback_compiler::ir::{Graph, Id, LeafNames, Ty, to_infix, verify};
+use pullback_compiler::reference::complex::complex;
+use pullback_compiler::stable::{Phase, RULES, Rewrites, Rule, Stable, stabilise};
+use pullback_compiler::table::Number;
+
+const REAL: &str = include_str!("../data/rewrites/real.tsv");
+const COMPLEX: &str = include_str!("../data/rewrites/complex.tsv");
+
+/// Bits that a result of binary64 has.
+const ALL_BITS: f64 = 53.0;
+
+fn formula(text: &str) -> Formula {
+    let compiled = compile(text);
+    let program = compiled
+        .program
+        .unwrap_or_else(|| panic!("{text}: {:?}", compiled.diagnostics));
+    program.pictures()[0].formula.clone()
+}
+
+fn rewritten(text: &str, rewrites: Rewrites, phase: Phase) -> Stable {
+    let formula = formula(text);
+    let stable = stabilise(&formula.graph, &formula.value, rewrites, phase);
+    verify(&stable.graph).unwrap_or_else(|e| panic!("{text}: {e:?}"));
+    stable
+}
+
+fn infix(text: &str, stable: &Stable) -> String {
+    let inputs: Vec<String> = formula(text)
+        .inputs
+        .iter()
+        .map(|i| i.name.clone())
+        .collect();
+    let names = LeafNames {
+        inputs: &inputs,
+        params: &[],
+    };
+    to_infix(&stable.graph, &stable.roots, names)
+}
+
+/// The value as a complex number.
+struct Machine(Tape, Vec<Ty>);
+
+impl Machine {
+    fn new(text: &str, graph: &Graph, roots: &[Id]) -> Self {
+        Self(Tape::new(graph, roots), formula(text).scalars())
+    }
+
+    fn at(&mut self, columns: &[f64]) -> (f64, f64) {
+        let mut columns = columns.iter().copied();
+        let mut next = || columns.next().expect("a column");
+        let scalars = self.1.iter();
+        let inputs: Vec<Number> = scalars
+            .map(|ty| match ty {
+                Ty::Complex => {
+                    let re = next();
+                    Number::Complex(complex(re, next()))
+                }
+                _ => Number::Real(next()),
+            })
+            .collect();
+        let leaves = Leaves {
+            inputs: &inputs,
+            params: &[],
+            time: 0.0,
+            pixel: 0.0,
+        };
+        let mut out = (f64::NAN, f64::NAN);
+        self.0.run(&leaves, |value| {
+            out = match value {
+                Number::Real(x) => (x, 0.0),
+                Number::Complex(z) => (z.re, z.im),
+                Number::Truth(_) => out,
+            };
+        });
+        out
+    }
+}
+
+/// Bits lost, by norm: log₂(1 + error in units of 2⁻⁵³ of the value).
+fn bits_lost(got: (f64, f64), exact: (f64, f64)) -> f64 {
+    let error = f64::hypot(got.0 - exact.0, got.1 - exact.1);
+    let relative = error / f64::hypot(exact.0, exact.1) / f64::EPSILON * 2.0;
+    if relative.is_nan() {
+        ALL_BITS
+    } else {
+        (1.0 + relative).log2().min(ALL_BITS)
+    }
+}
+
+/// One formula of a table.
+struct Case<'a> {
+    rules: Vec<&'a str>,
+    text: &'a str,
+    rows: Vec<Vec<f64>>,
+}
+
+fn cases(table: &str) -> Vec<Case<'_>> {
+    let mut out: Vec<Case> = Vec::new();
+    for line in table.lines() {
+        if let Some(head) = line.strip_prefix("# ") {
+            let (rules, text) = head.split_once('\t').expect("rules and formula");
+            out.push(Case {
+                rules: rules.split(',').collect(),
+                text,
+                rows: Vec::new(),
+            });
+        } else {
+            let row = line.split('\t').map(|x| x.parse().expect("a number"));
+            out.last_mut().expect("a formula").rows.push(row.collect());
+        }
+    }
+    out
+}
+
+/// What a case has measured: mean bits lost as written and as rewritten, the worst as rewritten, and the greatest loss.
+struct Measured {
+    before: f64,
+    after: f64,
+    worst: f64,
+    loss: f64,
+    at: Vec<f64>,
+}
+
+fn measure(case: &Case, results: usize) -> Measured {
+    let written = formula(case.text);
+    let stable = rewritten(case.text, Rewrites::ON, Phase::Late);
+    let mut machines = [
+        Machine::new(case.text, &written.graph, &written.value),
+        Machine::new(case.text, &stable.graph, &stable.roots),
+    ];
+    let mut out = Measured {
+        before: 0.0,
+        after: 0.0,
+        worst: 0.0,
+        loss: 0.0,
+        at: Vec::new(),
+    };
+    let count = case.rows.len() as f64;
+    for row in &case.rows {
+        let (args, exact) = row.split_at(row.len() - results);
+        let exact = (exact[0], exact.get(1).copied().unwrap_or(0.0));
+        let [before, after] = [0, 1].map(|k| bits_lost(machines[k].at(args), exact));
+        out.before += before / count;
+        out.after += after / count;
+        out.worst = out.worst.max(after);
+        if after - before > out.loss {
+            out.loss = after - before;
+            out.at = args.to_vec();
+        }
+    }
+    out
+}
+
+/// Each rule acts on its formulas, gains at least half of the bits that were lost, and loses none: a form that was
+/// right to a rounding or two may become right to a few.
+#[test]
+fn rules_gain_and_do_not_lose() {
+    let mut seen: BTreeSet<&str> = BTreeSet::new();
+    let mut problems = Vec::new();
+    for (table, results) in [(REAL, 1), (COMPLEX, 2)] {
+        for case in cases(table) {
+            let stable = rewritten(case.text, Rewrites::ON, Phase::Late);
+            let used: Vec<&str> = stable
+                .applied
+                .iter()
+                .flat_map(|a| &a.rules)
+                .map(|r| r.record().name)
+                .collect();
+            let m = measure(&case, results);
+            println!(
+                "{:<60} {:5.1} -> {:4.1} bits, worst {:4.1}, loss {:4.1} at {:?}",
+                case.text, m.before, m.after, m.worst, m.loss, m.at
+            );
+            seen.extend(&used);
+            let missing: Vec<_> = case.rules.iter().filter(|r| !used.contains(r)).collect();
+            if !missing.is_empty() {
+                problems.push(format!("{}: {missing:?} not used, but {used:?}", case.text));
+            }
+            if m.after > 0.5 * m.before && m.before > 1.0 {
+                problems.push(format!("{}: {:.1} -> {:.1}", case.text, m.before, m.after));
+            }
+            // four roundings more than before, at most
+            if m.loss > 2.4 {
+                problems.push(format!(
+                    "{}: loses {:.1} bits at {:?}",
+                    case.text, m.loss, m.at
+                ));
+            }
+        }
+    }
+    for record in RULES {
+        // Slope is of derivatives
+        if !seen.contains(record.name) && record.rule != Rule::Slope {
+            problems.push(format!("no formula for {}", record.name));
+        }
+    }
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+/// The document lists every rule with what it gains; `BLESS=1` writes it.
+#[test]
+fn the_document_lists_the_rules() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/rewrites.md");
+    let head = include_str!("../data/rewrites/head.md");
+    let mut gains: BTreeMap<&str, (f64, f64, &str)> = BTreeMap::new();
+    for (table, results) in [(REAL, 1), (COMPLEX, 2)] {
+        for case in cases(table) {
+            let m = measure(&case, results);
+            for rule in &case.rules {
+                let entry = gains.entry(rule).or_insert((0.0, 0.0, ""));
+                if m.before - m.after > entry.0 - entry.1 {
+                    *entry = (m.before, m.after, case.text);
+                }
+            }
+        }
+    }
+    let mut text = head.to_owned();
+    for record in RULES {
+        text += &format!(
+            "\n### {}\n\n    {}\n\nFor {} numbers: {}. Source: {}.\n",
+            record.name, record.equation, record.kinds, record.domain, record.source
+        );
+        if !record.early {
+            text += "\nAfter differentiation only.\n";
+        }
+        if let Some((before, after, formula)) = gains.get(record.name) {
+            text += &format!(
+                "\nGain: `{formula}` loses {before:.0} of 53 bits as written, {after:.0} as rewritten (means over its table).\n"
+            );
+        }
+    }
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::write(path, &text).expect("the document is written");
+    }
+    let found = std::fs::read_to_string(path).unwrap_or_default();
+    assert!(
+        found == text,
+        "docs/rewrites.md is not up to date: run with BLESS=1 and read the difference"
+    );
+}
+
+/// What no rule may touch: an identity that fails on a branch or overflows, or a form that is no better.
+const UNTOUCHED: [&str; 21] = [
+    "f(x, y) = x^2 - 2 x y + y^2",
+    "f(x, y, z) = x y - x z",
+    "f(x, y) = x + 1 - 0.3",
+    "f(z) = z - (z^3 - 1)/(3 z^2)",
+    "f(x, y) = exp(x) exp(y)",
+    "f(x, y) = log(x y)",
+    "f(x, y) = sin(x) + 1",
+    "f(x, y) = sqrt(x) + sqrt(y)",
+    "f(x: real) = exp(-x)/(1 + exp(-x))",
+    "f(x: real) = 1 - 1/(1 + exp(-x))",
+    "f(z) = sqrt(z) - sqrt(1 - z)",
+    "f(z) = log(z) - log(-z)",
+    "f(z) = log(z^2)",
+    "f(x: real) = log(x^3)",
+    "f(z) = atan(z + 1) - atan(z)",
+    "f(z) = sqrt(z^2)",
+    "f(x, y) = sqrt(x^2 - y)",
+    "f(x, y) = x - y",
+    "f(x, y) = x^2 + y^2 - 1",
+    "f(x: real) = log(2 + x)",
+    "f(z) = iterate(50, w = 0, w^2 + z)",
+];
+
+#[test]
+fn no_rule_acts_where_it_must_not() {
+    for text in UNTOUCHED {
+        let stable = rewritten(text, Rewrites::ON, Phase::Late);
+        assert!(
+            stable.applied.is_empty(),
+            "{text}: {}",
+            infix(text, &stable)
+        );
+    }
+    for case in cases(REAL).iter().chain(&cases(COMPLEX)) {
+        let stable = rewritten(case.text, Rewrites::OFF, Phase::Late);
+        assert!(stable.applied.is_empty(), "{}", case.text);
+    }
+}
+
+/// At zeros, infinities, NaN and the ends of the range: what was no NaN is none; what was one stays one where an
+/// argument is NaN; an infinity of finite arguments of ordinary size, a pole, stays the same.
+#[test]
+fn special_values_stay() {
+    const SPECIAL: [f64; 13] = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        0.5,
+        -2.5,
+        5e-324,
+        -1e-300,
+        1e308,
+        -1e308,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::NAN,
+    ];
+    let mut problems = Vec::new();
+    for case in cases(REAL) {
+        let written = formula(case.text);
+        let stable = rewritten(case.text, Rewrites::ON, Phase::Late);
+        let mut machines = [
+            Machine::new(case.text, &written.graph, &written.value),
+            Machine::new(case.text, &stable.graph, &stable.roots),
+        ];
+        let count = written.inputs.len();
+        for index in 0..SPECIAL.len().pow(count as u32) {
+            let args: Vec<f64> = (0..count)
+                .map(|k| SPECIAL[index / SPECIAL.len().pow(k as u32) % SPECIAL.len()])
+                .collect();
+            let [before, after] = [0, 1].map(|k| machines[k].at(&args).0);
+            let tame = args
+                .iter()
+                .all(|x| x.abs() <= 4.0 && (*x == 0.0 || x.abs() > 0.1));
+            let has = |f: fn(f64) -> bool| args.iter().any(|x| f(*x));
+            let excused = match case.rules[0] {
+                // 2x is 0: no quotient at all
+                "conjugate" if count == 3 => args[0] == 0.0,
+                // C99 F.9.4.3: infinite beside a NaN
+                "hypot" => has(f64::is_nan) && after == f64::INFINITY,
+                // what is written overflows
+                "asinh" => args[0] < -1.0,
+                "cubes" if args.iter().all(|x| x.is_infinite()) => true,
+                "cubes" if count == 2 => has(|x| x.abs() > 1e60) && case.text.contains("^5"),
+                // the infinity on this side of 0
+                "exp-ratio" => args[0] == 0.0 && after.is_infinite(),
+                _ => false,
+            };
+            if excused {
+                continue;
+            }
+            let wrong = (after.is_nan() && !before.is_nan())
+                || (!after.is_nan() && before.is_nan() && args.iter().any(|x| x.is_nan()))
+                || (before.is_infinite() && tame && before != after);
+            if wrong {
+                problems.push(format!(
+                    "{} at {args:?}: {before} became {after}",
+                    case.text
+                ));
+            }
+        }
+    }
+    assert!(
+        problems.is_empty(),
+        "{}\n{}",
+        problems.len(),
+        problems.join("\n")
+    );
+}
+
+/// Signs of zeros: that of an exact difference is as written; a function that is odd gives a zero its sign.
+#[test]
+fn zeros_keep_their_signs() {
+    let check = |text: &str, args: &[f64], expected: f64| {
+        let stable = rewritten(text, Rewrites::ON, Phase::Late);
+        assert!(!stable.applied.is_empty(), "{text}");
+        let found = Machine::new(text, &stable.graph, &stable.roots).at(args).0;
+        assert_eq!(
+            found.to_bits(),
+            expected.to_bits(),
+            "{text} at {args:?}: {found:?}"
+        );
+    };
+    for (x, y) in [
+        (3.0, 3.0),
+        (-3.0, 3.0),
+        (-3.0, -3.0),
+        (-0.0, 0.0),
+        (-0.0, -0.0),
+    ] {
+        check("f(x, y) = x^2 - y^2", &[x, y], 0.0);
+    }
+    check("f(x, y) = x^3 - y^3", &[-3.0, -3.0], 0.0);
+    check("f(x, y) = sqrt(x) - sqrt(y)", &[0.0, 0.0], 0.0);
+    check("f(x, y) = sqrt(x) - sqrt(y)", &[2.0, 2.0], 0.0);
+    check("f(x, y) = log(x) - log(y)", &[2.0, 2.0], 0.0);
+    check("f(x: real) = exp(x) - 1", &[-0.0], -0.0);
+    check("f(x: real) = log(1 + x)", &[-0.0], -0.0);
+    check("f(x: real) = 1 - cos(x)", &[-0.0], 0.0);
+    check("f(x: real) = exp(x) - exp(-x)", &[-0.0], -0.0);
+    check("f(x, y) = sqrt(x^2 + y^2)", &[-0.0, 0.0], 0.0);
+}
+
+/// Derivatives of a rewritten formula, too, are at least as good, here against closed forms.
+#[test]
+fn derivatives_do_not_get_worse() {
+    use pullback_compiler::module::{What, evaluation, stable_evaluation};
+    type Slope = fn(f64) -> f64;
+    let cases: [(&str, Slope, [f64; 3]); 7] = [
+        (
+            "f(x: real) = sqrt(x + 1) - sqrt(x)",
+            |x| -0.5 / (x.sqrt() * (x + 1.0).sqrt() * (x.sqrt() + (x + 1.0).sqrt())),
+            [1e10, 1e14, 0.25],
+        ),
+        (
+            "f(x: real) = log(x + 1) - log(x)",
+            |x| -1.0 / (x * (x + 1.0)),
+            [1e10, 1e14, 0.25],
+        ),
+        ("f(x: real) = 1 - cos(x)", f64::sin, [1e-10, 1.0, 100.0]),
+        (
+            "f(x: real) = atan(x + 1) - atan(x)",
+            |x| -(2.0 * x + 1.0) / (1.0 + x * x) / (1.0 + (x + 1.0) * (x + 1.0)),
+            [1e6, 1e8, 0.25],
+        ),
+        ("f(x: real) = x^2 - 1", |x| 2.0 * x, [1e-10, 1.0, 1e10]),
+        (
+            "f(x: real) = exp(x) - 2 + exp(-x)",
+            |x| 2.0 * x.sinh(),
+            [1e-10, 1e-3, 3.0],
+        ),
+        (
+            "f(x: real) = sqrt(x^2 + 1) - x",
+            |x| -1.0 / ((1.0 + x * x).sqrt() * (x + (1.0 + x * x).sqrt())),
+            [1e3, 1e7, 0.5],
+        ),
+    ];
+    for (text, slope, points) in cases {
+        let formula = formula(text);
+        let made = [
+            evaluation(&formula, What::Derivative).expect("a derivative"),
+            stable_evaluation(&formula, What::Derivative).expect("a derivative"),
+        ];
+        for x in points {
+            let exact = (slope(x), 0.0);
+            let [before, after] = [0, 1].map(|k: usize| {
+                let e = &made[k];
+                bits_lost(Machine::new(text, &e.graph, &e.roots[1..]).at(&[x]), exact)
+            });
+            println!("{text} at {x:e}: {before:.1} -> {after:.1}");
+            assert!(
+                after < 4.0 && after <= before + 2.4,
+                "{text} at {x}: {before} -> {after}"
+            );
+        }
+    }
+}
