@@ -416,3 +416,35 @@ fn complex_sqrt(z: Complex) -> Complex {
     let left = sign_is_set(z.re);
     return Complex(choose(left, u, t), with_sign(choose(left, t, u), z.im));
 }
+
+/// e^z - 1 = expm1 x cos y - 2 sin²(y/2) + i e^x sin y: the real part has its own digits but where both of its terms have
+/// lost them.
+fn complex_expm1(z: Complex) -> Complex {
+    if !is_finite(z.re) || !is_finite(z.im) || is_above(z.re, 40.0) {
+        let e = complex_exp(z);
+        return Complex(add32(e.re, -1.0), e.im);
+    }
+    if is_zero(z.im) {
+        return Complex(real_expm1(z.re), z.im);
+    }
+    let wave = real_sincos(z.im);
+    let half = real_sin(scale(z.im, -1));
+    let down = scale(half, 1);
+    let re = sum_of_products(real_expm1(z.re), wave.second, real_neg(down), half);
+    let im = with_sign(real_mul(real_exp(z.re), wave.first), wave.first);
+    return Complex(choose(is_zero(z.re), real_neg(real_mul(down, half)), re), im);
+}
+
+/// log(1 + z), cut along the negative axis left of -1; the real part is half of log1p(2x + x² + y²), summed in long
+/// numbers.
+fn complex_log1p(z: Complex) -> Complex {
+    if is_zero(z.im) && is_above(z.re, -0.5) {
+        return Complex(real_log1p(z.re), z.im);
+    }
+    if !(is_below(real_abs(z.re), 0.5) && is_below(real_abs(z.im), 0.5)) {
+        return complex_log(Complex(add32(z.re, 1.0), z.im));
+    }
+    let squares = long_add(long_product(z.re, z.re), long_product(z.im, z.im));
+    let size = long_to_real(long_add_real(squares, scale(z.re, 1)));
+    return Complex(scale(real_log1p(size), -1), real_atan2(z.im, add32(z.re, 1.0)));
+}
