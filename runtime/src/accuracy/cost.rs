@@ -90,7 +90,7 @@ impl<'g> Meter<'g> {
     pub fn costs(&self, subject: &Subject, tiers: &[Precision]) -> Result<Vec<Cost>, String> {
         let points = points(subject)?;
         let mut all = vec![Precision::Fast];
-        all.extend(tiers);
+        all.extend(tiers.iter().filter(|&&tier| tier != Precision::Fast));
         let mut loops: Vec<Loops> = all
             .iter()
             .map(|&tier| self.loops(subject, tier, &points))
@@ -105,13 +105,17 @@ impl<'g> Meter<'g> {
                 one.whole = one.whole.min(time(&one.full)? / evaluations);
             }
         }
-        let (fast, tiers) = loops.split_first().ok_or("no tiers")?;
+        let fast = loops.first().ok_or("no tiers")?;
         let noticed = fast.seconds() > NOTICED * fast.idle;
         let cost = |one: &Loops| Cost {
             seconds: one.seconds(),
             relative: noticed.then(|| one.seconds() / fast.seconds()),
         };
-        Ok(tiers.iter().map(cost).collect())
+        let of = |tier: &Precision| {
+            let place = all.iter().position(|known| known == tier);
+            place.map(|place| cost(&loops[place]))
+        };
+        Ok(tiers.iter().filter_map(of).collect())
     }
 
     fn loops(

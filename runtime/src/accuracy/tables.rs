@@ -62,6 +62,9 @@ impl std::fmt::Display for Domain {
     }
 }
 
+/// Reads the cells of a line behind its word.
+type Reader = fn(&[&'static str]) -> Option<Case>;
+
 type Index = HashMap<(&'static str, Domain), Vec<Case>>;
 
 /// Every case of a function, by its word in the tables.
@@ -79,7 +82,7 @@ pub fn cases(word: &str, domain: Domain) -> Result<Vec<Case>, String> {
 
 fn read() -> Result<Index, String> {
     let mut index = Index::new();
-    let kinds: [(fn(&[&'static str]) -> Option<Case>, Domain); 4] = [
+    let kinds: [(Reader, Domain); 4] = [
         (real_oracle, Domain::Real),
         (complex_oracle, Domain::Complex),
         (real_edge, Domain::Real),
