@@ -35,6 +35,9 @@ fn every_expression_is_listed_once_with_points_or_a_reason() {
     }
 }
 
+/// Its exponentials of distances leave the range of `f64` at most of its points, which have no bounds.
+const OVERFLOWS: [&str; 1] = ["herbie/graphics/fidget/bear/1"];
+
 /// 29 bits separate `f64` from 24: what loses little there has a right `f32` here. This holds our translation, the exact
 /// values and the reference evaluator against one another, and every expression compiles.
 #[test]
@@ -52,7 +55,7 @@ fn the_reference_is_right_where_rounding_loses_little() {
         let got = results(&formula, &Machine::Reference, Precision::Double, points)
             .unwrap_or_else(|e| panic!("{}: {e}", benchmark.id))
             .unwrap_or_default();
-        if benchmark.plain > 2.0 {
+        if benchmark.plain > 2.0 || OVERFLOWS.contains(&benchmark.id.as_str()) {
             continue;
         }
         // some points overflow on their way, and at some rounding decides a comparison: not at most of them
