@@ -38,5 +38,6 @@ pub mod types;
 pub use emit::{EmitWhat, Target};
 pub use module::{EvalModule, Evaluator, SceneModule, What};
 pub use program::{
-    Compilation, ParamInfo, Picture, Program, SettingValue, compile, compile_bytes, compile_function,
+    Compilation, ParamInfo, Picture, Program, SettingValue, compile, compile_bytes,
+    compile_function,
 };

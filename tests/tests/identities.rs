@@ -6,6 +6,7 @@ use proptest::strategy::ValueTree as _;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use pullback_compiler::What;
 use pullback_compiler::lower::Precision;
+use pullback_tests::accuracy::error::Judge;
 use pullback_tests::accuracy::bounds::declared;
 use pullback_tests::accuracy::evaluators::{Machine, Point, suite_gpu};
 use pullback_tests::accuracy::subjects::{formula, subjects};
@@ -62,7 +63,11 @@ fn bound(word: &str, machine: &Machine) -> f64 {
         .iter()
         .find(|s| s.word == word && s.domain == Domain::Real)
         .expect(word);
-    declared(subject, machine).expect(word).value.ulps
+    declared(subject, machine)
+        .expect(word)
+        .value
+        .expect(word)
+        .units
 }
 
 fn same(a: f64, b: f64) -> bool {
@@ -142,7 +147,7 @@ fn conjugates_have_conjugate_values_bit_for_bit() {
 fn sine_and_cosine_are_on_the_unit_circle() {
     let points: Vec<Vec<f64>> = numbers(2000, 100.0).into_iter().map(|x| vec![x]).collect();
     for machine in &machines() {
-        let ulp = |v: f64| machine.format().ulp(v);
+        let ulp = |v: f64| machine.format().unit(v);
         let (of_sin, of_cos) = (bound("sin", machine), bound("cos", machine));
         let rows = run(
             machine,
@@ -174,7 +179,7 @@ fn exponentials_undo_logarithms() {
         .map(|x| vec![x.abs()])
         .collect();
     for machine in &machines() {
-        let ulp = |v: f64| machine.format().ulp(v);
+        let ulp = |v: f64| machine.format().unit(v);
         // the rounding of the logarithm is multiplied by the exponential
         let log = bound("log", machine).max(0.5);
         let exp = bound("exp", machine).max(0.5);
@@ -230,7 +235,7 @@ fn growing_functions_grow() {
                     let (low, high) = (pair[0][0], pair[1][0]);
                     let fall = if low == high { 0.0 } else { low - high };
                     assert!(
-                        fall <= allowed * machine.format().ulp(low),
+                        fall <= allowed * machine.format().unit(low),
                         "{}: {name} falls after {at:?}",
                         label(machine)
                     );
@@ -283,7 +288,7 @@ fn limits_at_infinity_are_reached() {
                 &[vec![at]],
             )[0][0];
             let within = got == limit
-                || (got - limit).abs() <= bound(name, machine) * machine.format().ulp(limit);
+                || (got - limit).abs() <= bound(name, machine) * machine.format().unit(limit);
             assert!(
                 within,
                 "{}: {name}({at}) = {got}, not {limit}",

@@ -201,6 +201,7 @@ fn first_of(count: usize) -> Formula {
         graph,
         ty: Type::Real,
         span: pullback_grammar::Span::default(),
+        rewrites: pullback_compiler::stable::Rewrites::default(),
     }
 }
 

@@ -12,6 +12,7 @@ use std::fmt::Write as _;
 
 use pullback_compiler::What;
 use pullback_compiler::lower::Precision;
+use pullback_tests::accuracy::error::Judge;
 use pullback_tests::accuracy::evaluators::{Machine, Point, suite_gpu};
 use pullback_tests::accuracy::subjects::formula;
 
@@ -68,7 +69,7 @@ fn judge(trap: &Trap, machine: &Machine) -> String {
             continue; // not stated
         }
         let within = if expected.is_finite() && expected != 0.0 {
-            (got - expected).abs() <= trap.ulps * machine.format().ulp(expected)
+            (got - expected).abs() <= trap.ulps * machine.format().unit(expected)
         } else {
             got == expected
         };
