@@ -37,7 +37,7 @@ impl Diagnostic {
         Self {
             severity: Severity::Error,
             code,
-            message: message.into(),
+            message: bounded(message.into()),
             span,
             label: String::new(),
             related: Vec::new(),
@@ -57,21 +57,21 @@ impl Diagnostic {
     /// Adds the reason that is written at the place.
     #[must_use]
     pub fn with_label(mut self, label: impl Into<String>) -> Self {
-        self.label = label.into();
+        self.label = bounded(label.into());
         self
     }
 
     /// Adds the advice.
     #[must_use]
     pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(hint.into());
+        self.hint = Some(bounded(hint.into()));
         self
     }
 
     /// Adds another place that matters.
     #[must_use]
     pub fn with_related(mut self, span: Span, remark: impl Into<String>) -> Self {
-        self.related.push((span, remark.into()));
+        self.related.push((span, bounded(remark.into())));
         self
     }
 
@@ -80,6 +80,28 @@ impl Diagnostic {
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
+}
+
+/// Most characters of a message, label, hint or remark.
+pub const MAX_TEXT: usize = 300;
+
+/// A text in one line, cut where it is too long. Whoever quotes from a program cuts what he quotes; this is for what
+/// many such quotations add up to.
+fn bounded(text: String) -> String {
+    let is_short = text.len() <= MAX_TEXT || text.chars().nth(MAX_TEXT).is_none();
+    if is_short && !text.contains(char::is_control) {
+        return text;
+    }
+    let shown = text
+        .chars()
+        .take(if is_short { MAX_TEXT } else { MAX_TEXT - 1 });
+    let mut out: String = shown
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
+    if !is_short {
+        out.push('…');
+    }
+    out
 }
 
 /// Most errors, and most warnings, that are reported for one file.
@@ -116,5 +138,26 @@ pub fn limit(diagnostics: &mut Vec<Diagnostic>) {
             .with_hint("mend the first ones, and look again");
         summary.severity = severity;
         diagnostics.push(summary);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Diagnostic, MAX_TEXT};
+    use crate::Span;
+
+    #[test]
+    fn texts_are_lines_of_bounded_length() {
+        let length = |text: &str| text.chars().count();
+        let long = "`α`, ".repeat(MAX_TEXT);
+        let found = Diagnostic::error("code", Span::default(), long.as_str())
+            .with_label("a\nb\u{7}c")
+            .with_hint("é".repeat(MAX_TEXT))
+            .with_related(Span::default(), "é".repeat(MAX_TEXT + 1));
+        assert_eq!(length(&found.message), MAX_TEXT);
+        assert!(found.message.ends_with('…') && long.starts_with(&found.message[..MAX_TEXT]));
+        assert_eq!(found.label, "a b c");
+        assert_eq!(found.hint, Some("é".repeat(MAX_TEXT)));
+        assert_eq!(length(&found.related[0].1), MAX_TEXT);
     }
 }

@@ -163,6 +163,12 @@ impl<'a> Scope<'a> {
         (self.is_builtin)(name)
     }
 
+    /// Whether nothing of the file is called so here, so that the name means what it does in the language.
+    pub(crate) fn is_free(&self, name: &str) -> bool {
+        let entry = self.names.get(in_letters(name));
+        entry.is_none_or(|entry| entry.bound == 0 && !entry.is_function && !entry.is_constant)
+    }
+
     /// What the name stands for here.
     pub(crate) fn role(&self, name: &str) -> Role {
         let name = in_letters(name);

@@ -341,8 +341,15 @@ pub fn comments(text: &str) -> Vec<Span> {
     found
 }
 
+/// The kind of the one token that a word is; nothing where it is several, or none.
+pub(crate) fn kind_of_word(word: &str) -> Option<TokenKind> {
+    let mut lexer = TokenKind::lexer(word);
+    let kind = lexer.next()?.ok()?;
+    lexer.remainder().is_empty().then_some(kind)
+}
+
 /// Whether `c` can stand inside a name.
-fn is_name_character(c: char) -> bool {
+pub(crate) fn is_name_character(c: char) -> bool {
     matches!(c, 'A'..='Z' | 'a'..='z' | '0'..='9' | '_' | '₀'..='₉')
         || matches!(c, 'Α'..='Ω' | 'α'..='ω' | 'ϑ' | 'ϱ' | 'ϵ') && !matches!(c, 'π' | 'τ' | 'φ')
 }

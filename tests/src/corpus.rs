@@ -184,11 +184,22 @@ pub fn blocks(document: &str) -> Vec<Block> {
     out
 }
 
-/// Every program that we have: the gallery, the wrong programs, and those of the language reference.
+/// The texts of the parser's own fixtures, which stand between `===` and `---`.
+fn fixtures(name: &str) -> Vec<String> {
+    let text = read(&root().join("grammar/tests/data").join(name));
+    let cases = text.split("===\n").skip(1);
+    let texts = cases.filter_map(|case| Some(case.split_once("\n---\n")?.0.to_owned()));
+    texts.collect()
+}
+
+/// Every program that we have: the gallery, the wrong programs, those of the language reference, and the texts of the
+/// parser's suites.
 #[must_use]
 pub fn all_programs() -> Vec<String> {
     let gallery = gallery().into_iter().map(|s| s.text);
     let wrong = wrong_programs().into_iter().map(|p| p.text);
     let document = blocks("docs/language.md").into_iter().map(|b| b.text);
-    gallery.chain(wrong).chain(document).collect()
+    let fixtures = ["parse.txt", "pasted.txt", "malformed.txt", "format.txt"].map(fixtures);
+    let all = gallery.chain(wrong).chain(document);
+    all.chain(fixtures.into_iter().flatten()).collect()
 }

@@ -1,6 +1,7 @@
 //! Which tokens are apart on a line.
 
 use super::pieces::Piece;
+use crate::paste::names::is_type_mark;
 use crate::token::{Token, TokenKind};
 
 /// Where a token stands among operands.
@@ -52,6 +53,10 @@ pub(super) fn blank_between(
     if right == Dot && matches!(left, TokenKind::Number | TokenKind::Imaginary) {
         // `0 .f`, which is no number
         return true;
+    }
+    if left == TokenKind::Number && right == TokenKind::Name {
+        // `2 f`, which is a product wherever it stands
+        return gap || is_type_mark(after.0.span.text(text), false);
     }
     if before.1.opens() || matches!(right, Comma | Colon | DotDot | Dot) || left == Dot {
         return false;

@@ -164,7 +164,8 @@ impl<'a> Source<'a> {
             }
             let place = self.place(token, before, calls);
             calls = match token.kind {
-                TokenKind::LParen => false,
+                // the bars of `log|x|` stand for the bracket
+                TokenKind::LParen | TokenKind::Bar => false,
                 TokenKind::Name if self.roles.callees.contains(&token.span.start) => true,
                 _ => calls,
             };

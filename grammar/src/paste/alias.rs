@@ -17,11 +17,14 @@ impl Parser<'_> {
         if self.is_applied()
             && let Some(ours) = function_of(&name.text)
             && self.scope.is_builtin(ours)
+            && self.scope.is_free(ours)
         {
             self.rename(name, ours);
             return Role::Function;
         }
-        if let Some(ours) = value_of(&name.text) {
+        if let Some(ours) = value_of(&name.text)
+            && self.scope.is_free(ours)
+        {
             self.rename(name, ours);
             return Role::Value;
         }
@@ -57,7 +60,8 @@ impl Parser<'_> {
         let is_angle = count == 2
             && matches!(callee.text.as_str(), "atan" | "arctan")
             && !self.scope.defines_function(&callee.text)
-            && self.scope.is_builtin("atan2");
+            && self.scope.is_builtin("atan2")
+            && self.scope.is_free("atan2");
         if is_angle {
             if callee.span.text(self.text) == "ArcTan" {
                 self.diagnostics.push(

@@ -1,7 +1,7 @@
 //! Numbers, names and brackets of programs: GLSL, WGSL, HLSL, C, Python, MATLAB and Mathematica.
 
 use super::Translator;
-use super::names::{function_of, is_namespace};
+use super::names::{function_of, is_namespace, is_type_mark};
 use crate::Diagnostic;
 use crate::stray::shorten;
 use crate::token::TokenKind;
@@ -41,12 +41,7 @@ impl Translator<'_> {
     /// name of the program.
     fn is_suffix(&self, n: usize, has_point: bool) -> bool {
         let word = self.word_ahead(n);
-        let is_mark = match word {
-            "f" | "F" | "h" | "H" | "lf" | "LF" | "j" | "J" => true,
-            "u" | "U" | "l" | "L" => !has_point,
-            _ => false,
-        };
-        is_mark
+        is_type_mark(word, has_point)
             && !self.facts.values.contains(word)
             && (has_point || !self.facts.called.contains(word))
             && !(self.ahead(n + 1) == TokenKind::LParen && self.touches(n))
@@ -80,7 +75,8 @@ impl Translator<'_> {
             && self.ahead(1) == TokenKind::Less
             && matches!(self.word_ahead(2), "f32" | "f16" | "f64")
             && self.ahead(3) == TokenKind::Greater
-            && self.ahead(4) == TokenKind::LParen;
+            && self.ahead(4) == TokenKind::LParen
+            && (0..4).all(|n| self.touches(n));
         if is_vector {
             self.pass();
             for _ in 0..3 {
@@ -110,11 +106,17 @@ impl Translator<'_> {
     /// `np.sin`, `Math.PI`; the name and the point are here.
     fn of_library(&mut self) {
         let is_numpy = matches!(self.word_ahead(0), "np" | "numpy" | "jnp");
-        if self.ahead(2) == TokenKind::Where && self.ahead(3) == TokenKind::LParen {
-            return self.numpy_where();
+        // `np. np.sin`: once is enough
+        while self.ahead(2) == TokenKind::Name
+            && is_namespace(self.word_ahead(2))
+            && self.ahead(3) == TokenKind::Dot
+        {
+            self.bump();
+            self.bump();
         }
         match self.ahead(2) {
             TokenKind::Name => {}
+            TokenKind::Where if self.ahead(3) == TokenKind::LParen => return self.numpy_where(),
             TokenKind::Command => {
                 self.bump();
                 self.bump();
@@ -124,11 +126,6 @@ impl Translator<'_> {
         }
         self.bump();
         self.bump();
-        // `np. np.sin`: once is enough
-        while is_namespace(self.word_ahead(0)) && self.ahead(1) == TokenKind::Dot {
-            self.bump();
-            self.bump();
-        }
         let is_inner = matches!(self.word_ahead(0), "linalg" | "special")
             && self.ahead(1) == TokenKind::Dot
             && self.ahead(2) == TokenKind::Name;

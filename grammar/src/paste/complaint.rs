@@ -63,6 +63,18 @@ impl Translator<'_> {
         self.complain("unknown-command", span, message, "a command of LaTeX", hint);
     }
 
+    /// What is left of a word, or was put together, is not one: `a1b` behind `\frac` is a and 1b.
+    pub(super) fn complain_no_name(&mut self, span: Span, word: &str) {
+        let shown = shorten(word);
+        self.complain(
+            "unclear-argument",
+            span,
+            format!("`{shown}` is no name"),
+            "a name begins with a letter",
+            "write braces around each argument, and a sign or blank between factors",
+        );
+    }
+
     /// A command such as `\frac` without what it is applied to.
     pub(super) fn complain_no_argument(&mut self, span: Span) {
         let is_consequence = self.diagnostics.last().is_some_and(|last| {

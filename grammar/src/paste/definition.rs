@@ -38,17 +38,24 @@ impl Translator<'_> {
         }
     }
 
-    /// Number of words before a name that is defined here.
+    /// Number of words before a name that is defined here, on the same line.
     fn words(&self) -> usize {
         let mut count = 0;
         while count < MOST_WORDS
             && self.ahead(count) == TokenKind::Name
             && self.ahead(count + 1) == TokenKind::Name
+            && !self.begins_line(count + 1)
             && self.is_word(count)
         {
             count += 1;
         }
         count
+    }
+
+    /// Whether the token `n` places on is the first of its line.
+    fn begins_line(&self, n: usize) -> bool {
+        let token = self.tokens.get(self.at + n);
+        token.is_some_and(|token| token.starts_line)
     }
 
     fn is_word(&self, n: usize) -> bool {

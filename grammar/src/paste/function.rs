@@ -67,8 +67,8 @@ impl Translator<'_> {
             let end = start + u32::try_from(length).unwrap_or(0);
             if end >= self.span().end {
                 self.bump();
-            } else if let Some(token) = self.tokens.get_mut(self.at) {
-                token.span.start = end;
+            } else {
+                self.cut(end);
             }
             self.emit(kind, Span::new(start, end));
             return;

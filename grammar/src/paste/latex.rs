@@ -1,13 +1,11 @@
 //! LaTeX: commands, groups, scripts and delimiters.
 
-use logos::Logos;
-
 use super::Translator;
 use super::command::{self, Meaning};
 use crate::Span;
 use crate::layout::goes_on;
 use crate::stray::shorten;
-use crate::token::{Token, TokenKind};
+use crate::token::{Token, TokenKind, is_name_character};
 
 impl Translator<'_> {
     /// What the command here means.
@@ -85,12 +83,10 @@ impl Translator<'_> {
     fn letter(&mut self, span: Span, name: &'static str) {
         let has_subscript =
             self.kind() == TokenKind::Name && self.word_ahead(0).starts_with('_') && self.follows();
-        // These stand for themselves and cannot go on: `φ_1` would be two names.
-        let name = match name {
-            "π" if has_subscript => "pi",
-            "φ" if has_subscript => "phi",
-            "τ" if has_subscript => "tau",
-            _ => name,
+        let name = if has_subscript {
+            in_letters(name)
+        } else {
+            name
         };
         match name {
             "φ" => self.warn_once(
@@ -166,7 +162,7 @@ impl Translator<'_> {
     fn subscript(&self) -> Option<(String, usize)> {
         const LONGEST: usize = 6;
         if let Some(Meaning::Name(name)) = self.meaning() {
-            return Some((name.to_owned(), 1));
+            return Some((in_letters(name).to_owned(), 1));
         }
         let mut start = 0;
         if self.meaning() == Some(Meaning::Font) {
@@ -180,16 +176,18 @@ impl Translator<'_> {
             match self.ahead(n) {
                 TokenKind::RBrace if text.is_empty() => return None,
                 TokenKind::RBrace => return Some((text, n + 1)),
-                TokenKind::Name | TokenKind::Number => {
+                kind if kind.is_keyword()
+                    || matches!(kind, TokenKind::Name | TokenKind::Number) =>
+                {
                     let word = self.word_ahead(n);
-                    // these stand alone as names
-                    if word.contains(['.', '+', '-', '∞', 'π', 'τ', 'φ']) {
+                    // a fraction, or one of the letters that stand alone
+                    if !word.chars().all(is_name_character) {
                         return None;
                     }
                     text.push_str(word);
                 }
                 TokenKind::Command => match self.meaning_ahead(n)? {
-                    Meaning::Name(name) => text.push_str(name),
+                    Meaning::Name(name) => text.push_str(in_letters(name)),
                     Meaning::Function(_) => {
                         text.push_str(self.word_ahead(n).trim_start_matches('\\'));
                     }
@@ -275,20 +273,29 @@ impl Translator<'_> {
             }
             return;
         }
-        if let Some(token) = self.tokens.get_mut(self.at) {
-            self.starts_line |= std::mem::take(&mut token.starts_line);
-            token.span.start = middle;
-            // what is left of a name may be a number, `\frac1x2`, or a word, `\frac{x}sin`
-            let rest = token.span.text(self.text);
-            if rest.chars().all(|c| c.is_ascii_digit()) {
-                token.kind = TokenKind::Number;
-            } else if let Some(Ok(word)) = TokenKind::lexer(rest).next()
-                && word.is_keyword()
-            {
-                token.kind = word;
-            }
-        }
+        self.cut(middle);
         self.emit(kind, Span::new(span.start, middle));
+    }
+
+    /// Leaves of the name or number here what begins at `middle`; that may be a number, `\frac1x2`, or a word,
+    /// `\frac{x}sin`.
+    pub(super) fn cut(&mut self, middle: u32) {
+        let Some(token) = self.tokens.get_mut(self.at) else {
+            return;
+        };
+        self.starts_line |= std::mem::take(&mut token.starts_line);
+        token.span.start = middle;
+        let span = token.span;
+        let rest = span.text(self.text);
+        let is_number = rest.chars().all(|c| c.is_ascii_digit());
+        let kind = if is_number {
+            TokenKind::Number
+        } else {
+            self.kind_of_name(span, rest)
+        };
+        if let Some(token) = self.tokens.get_mut(self.at) {
+            token.kind = kind;
+        }
     }
 
     /// `\frac{a}{b}` as `((a)/(b))`
@@ -624,5 +631,17 @@ impl Translator<'_> {
         if let Some(token) = self.tokens.get_mut(self.at) {
             token.starts_line = true;
         }
+    }
+}
+
+/// A letter that stands for itself and cannot go on, as the beginning or a part of a longer name: `φ_1` would be two
+/// names.
+fn in_letters(letter: &'static str) -> &'static str {
+    match letter {
+        "π" => "pi",
+        "φ" => "phi",
+        "τ" => "tau",
+        "∞" => "inf",
+        _ => letter,
     }
 }

@@ -21,7 +21,7 @@ use std::collections::HashSet;
 
 use crate::ast::MAX_NESTING;
 use crate::layout::{definition_begins, goes_on, wants_more};
-use crate::token::{Token, TokenKind};
+use crate::token::{Token, TokenKind, kind_of_word};
 use crate::{Diagnostic, Span};
 
 use names::function_of;
@@ -119,7 +119,8 @@ impl Facts {
                 }
                 TokenKind::Name if !is_show => {
                     let before = at.checked_sub(1).and_then(|before| tokens.get(before));
-                    facts.name(text, before, token, tokens.get(at + 1));
+                    let after = [1, 2].map(|n| tokens.get(at + n).map(|token| token.kind));
+                    facts.name(text, before, token, after);
                 }
                 _ => {}
             }
@@ -127,8 +128,14 @@ impl Facts {
         facts
     }
 
-    /// Takes in a name and its neighbours.
-    fn name(&mut self, text: &str, before: Option<&Token>, name: &Token, after: Option<&Token>) {
+    /// Takes in a name and its neighbours, of which two are behind it.
+    fn name(
+        &mut self,
+        text: &str,
+        before: Option<&Token>,
+        name: &Token,
+        after: [Option<TokenKind>; 2],
+    ) {
         const LONGEST: u32 = 6;
         let is_suffix = before.is_some_and(|before| {
             matches!(before.kind, TokenKind::Number | TokenKind::Dot)
@@ -137,9 +144,9 @@ impl Facts {
         if is_suffix || name.span.end - name.span.start > LONGEST {
             return;
         }
-        let found = match after.map(|after| after.kind) {
-            Some(TokenKind::LParen) => &mut self.called,
-            Some(TokenKind::Dot | TokenKind::Colon) => return,
+        let found = match after {
+            [Some(TokenKind::LParen), _] => &mut self.called,
+            [Some(TokenKind::Dot), _] | [Some(TokenKind::Colon), Some(TokenKind::Colon)] => return,
             _ => &mut self.values,
         };
         let word = name.span.text(text);
@@ -264,8 +271,29 @@ impl Translator<'_> {
         span
     }
 
-    /// Writes a token.
+    /// Writes a token that has been made of others.
     fn emit(&mut self, kind: TokenKind, span: Span) {
+        let kind = match kind {
+            TokenKind::Name => self.kind_of_name(span, span.text(self.text)),
+            _ => kind,
+        };
+        self.write(kind, span);
+    }
+
+    /// What a word is that is to be a name: that, or a word of the language. What is neither is complained of, so
+    /// that no name is passed on that could not be written.
+    fn kind_of_name(&mut self, span: Span, word: &str) -> TokenKind {
+        match kind_of_word(word) {
+            Some(kind) if kind == TokenKind::Name || kind.is_keyword() => kind,
+            _ => {
+                self.complain_no_name(span, word);
+                TokenKind::Error
+            }
+        }
+    }
+
+    /// Writes a token.
+    fn write(&mut self, kind: TokenKind, span: Span) {
         self.out.push(Token {
             kind,
             span,
@@ -276,8 +304,13 @@ impl Translator<'_> {
 
     /// Writes a name or number that is spelt otherwise than its text.
     fn emit_spelt(&mut self, kind: TokenKind, span: Span, spelling: impl Into<String>) {
-        self.spellings.push((span, spelling.into()));
-        self.emit(kind, span);
+        let spelling = spelling.into();
+        let kind = match kind {
+            TokenKind::Name => self.kind_of_name(span, &spelling),
+            _ => kind,
+        };
+        self.spellings.push((span, spelling));
+        self.write(kind, span);
     }
 
     /// Writes the token here as it is.
@@ -287,7 +320,7 @@ impl Translator<'_> {
             self.count_bar();
         }
         let span = self.advance();
-        self.emit(kind, span);
+        self.write(kind, span);
         self.follow(kind);
     }
 

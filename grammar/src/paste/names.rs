@@ -127,6 +127,15 @@ pub(crate) fn is_conversion(name: &str) -> bool {
     )
 }
 
+/// Whether the name, directly behind a number, may be the mark of its type: behind any, and behind one without a point.
+pub(crate) fn is_type_mark(name: &str, has_point: bool) -> bool {
+    match name {
+        "f" | "F" | "h" | "H" | "lf" | "LF" | "j" | "J" => true,
+        "u" | "U" | "l" | "L" => !has_point,
+        _ => false,
+    }
+}
+
 /// Whether the name stands before the `.` of what NumPy, JavaScript and others collect there.
 pub(crate) fn is_namespace(name: &str) -> bool {
     matches!(

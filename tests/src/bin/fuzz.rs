@@ -1,13 +1,14 @@
 //! Looks for texts that the parser or the compiler does not answer as it must.
 //!
 //!     cargo run --release -p pullback-tests --no-default-features --bin fuzz -- parse|compile|fmt
-//!         [--seconds 600] [--seed 1] [--last FILE] [--text FILE]
+//!         [--seconds 600] [--seed 1] [--failures 1] [--last FILE] [--text FILE]
 //!
 //! Mutates every program that we have. What must hold is in `pullback_tests::holds`: no panic, places inside of the
 //! text, an error where there is no program, printing and formatting that change nothing (`fmt`: nor the values), an
-//! answer within `LIMIT` and `MEMORY`. The first text that breaks this is printed, and the exit code is 1. At the end
-//! the text that took the most memory is printed. `--last` keeps each text in a file before it is tried, for a stack
-//! overflow that ends the process; `--text` tries the text of a file alone.
+//! answer within `LIMIT` and `MEMORY`. A text that breaks this is made as small as it can be and printed, and the exit
+//! code is 1; after `--failures` of them the fuzzer stops. At the end the text that took the most memory is printed.
+//! `--last` keeps each text in a file before it is tried, for a stack overflow that ends the process; `--text` tries
+//! the text of a file alone.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
@@ -15,7 +16,7 @@ use std::time::{Duration, Instant};
 
 use peak_alloc::PeakAlloc;
 use pullback_tests::corpus::all_programs;
-use pullback_tests::mutate::{Random, mutated};
+use pullback_tests::mutate::{Random, mutated, smallest};
 use pullback_tests::{formatting, holds};
 
 #[global_allocator]
@@ -26,6 +27,9 @@ const LIMIT: Duration = Duration::from_secs(5);
 
 /// Most memory for one text, in bytes beyond what was taken before. A graph of the greatest size takes about 670 MiB.
 const MEMORY: usize = 1 << 30;
+
+/// Longest time in which a text that fails is made smaller.
+const SHRINKING: Duration = Duration::from_secs(20);
 
 /// Smallest stack that threads have by default.
 const STACK: usize = 2 << 20;
@@ -42,6 +46,7 @@ struct Options {
     target: Target,
     seconds: u64,
     seed: u64,
+    failures: usize,
     last: Option<String>,
     text: Option<String>,
 }
@@ -58,6 +63,7 @@ fn options() -> Option<Options> {
         target,
         seconds: 600,
         seed: 1,
+        failures: 1,
         last: None,
         text: None,
     };
@@ -66,6 +72,7 @@ fn options() -> Option<Options> {
         match name.as_str() {
             "--seconds" => out.seconds = value.parse().ok()?,
             "--seed" => out.seed = value.parse().ok()?,
+            "--failures" => out.failures = value.parse().ok()?,
             "--last" => out.last = Some(value),
             "--text" => out.text = Some(value),
             _ => return None,
@@ -104,8 +111,8 @@ fn try_text(target: Target, bytes: &[u8], modules: bool) -> (Option<String>, usi
 struct Outcome {
     /// Number of texts tried.
     count: u64,
-    /// The first text that failed, and why.
-    failure: Option<(Vec<u8>, String)>,
+    /// Number of texts that failed.
+    failures: usize,
     /// The text that took the most memory, and the bytes that it took.
     greatest: (Vec<u8>, usize),
 }
@@ -114,14 +121,39 @@ struct Outcome {
 fn run_alone(options: &Options, file: &str) -> Outcome {
     let bytes = std::fs::read(file).unwrap_or_default();
     let (problem, memory) = try_text(options.target, &bytes, true);
+    if let Some(problem) = &problem {
+        tell(options.target, &bytes, problem);
+    }
     Outcome {
         count: 1,
-        failure: problem.map(|problem| (bytes.clone(), problem)),
+        failures: usize::from(problem.is_some()),
         greatest: (bytes, memory),
     }
 }
 
-/// Runs until the time is over, or to the first failure.
+/// Prints a text that failed, as small as it can be made, and why.
+fn tell(target: Target, bytes: &[u8], problem: &str) {
+    // the same problem: what is said before the texts in it
+    let kind = |problem: &str| {
+        problem
+            .split(['\n', ':', '{', '"'])
+            .next()
+            .map(str::to_owned)
+    };
+    let start = Instant::now();
+    let small = smallest(bytes, |smaller| {
+        let again = (start.elapsed() < SHRINKING).then(|| try_text(target, smaller, true).0);
+        again
+            .flatten()
+            .is_some_and(|again| kind(&again) == kind(problem))
+    });
+    let (again, _) = try_text(target, &small, true);
+    let problem = again.as_deref().unwrap_or(problem);
+    let text = String::from_utf8_lossy(&small);
+    println!("failed: {problem}\n---\n{text}\n---\n{small:?}");
+}
+
+/// Runs until the time is over, or to the last failure.
 fn run(options: &Options) -> Outcome {
     if let Some(file) = &options.text {
         return run_alone(options, file);
@@ -141,8 +173,11 @@ fn run(options: &Options) -> Outcome {
             outcome.greatest = (bytes.clone(), memory);
         }
         if let Some(problem) = problem {
-            outcome.failure = Some((bytes, problem));
-            break;
+            tell(options.target, &bytes, &problem);
+            outcome.failures += 1;
+            if outcome.failures >= options.failures {
+                break;
+            }
         }
         outcome.count += 1;
         if start.elapsed().as_secs() >= 60 * minute {
@@ -162,20 +197,18 @@ fn report(outcome: &Outcome) -> ExitCode {
         *memory as f64 / f64::from(1 << 20),
         String::from_utf8_lossy(bytes)
     );
-    let Some((bytes, problem)) = &outcome.failure else {
-        return ExitCode::SUCCESS;
-    };
-    println!(
-        "failed: {problem}\n---\n{}\n---\n{bytes:?}",
-        String::from_utf8_lossy(bytes)
-    );
-    ExitCode::FAILURE
+    if outcome.failures == 0 {
+        ExitCode::SUCCESS
+    } else {
+        println!("{} failed", outcome.failures);
+        ExitCode::FAILURE
+    }
 }
 
 fn main() -> ExitCode {
     let Some(options) = options() else {
         eprintln!(
-            "usage: fuzz parse|compile|fmt [--seconds 600] [--seed 1] [--last FILE] [--text FILE]"
+            "usage: fuzz parse|compile|fmt [--seconds 600] [--seed 1] [--failures 1] [--last FILE] [--text FILE]"
         );
         return ExitCode::from(2);
     };
