@@ -12,6 +12,8 @@ impl Parser<'_> {
         let mut node = self.disjunction();
         let mut ended = start;
         while self.eat(TokenKind::Where) {
+            // a local is no argument
+            self.takes_functions = false;
             let mut locals = Vec::new();
             loop {
                 locals.extend(self.local());

@@ -67,7 +67,9 @@ impl Translator<'_> {
         }
         let word = self.word_ahead(0);
         let touches = self.touches(0);
-        let is_library = self.ahead(1) == TokenKind::Dot && is_namespace(word);
+        // behind a point it is a component
+        let is_library =
+            self.last != TokenKind::Dot && self.ahead(1) == TokenKind::Dot && is_namespace(word);
         if is_library && !self.facts.values.contains(word) {
             return self.of_library();
         }

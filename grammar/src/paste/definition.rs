@@ -3,6 +3,7 @@
 use super::Translator;
 use super::names::{is_defining_word, is_function_word, type_of};
 use crate::Span;
+use crate::layout::definition_begins;
 use crate::token::{Token, TokenKind};
 
 /// Most words before a name, such as `static const float`.
@@ -14,7 +15,7 @@ impl Translator<'_> {
         if self.kind() != TokenKind::Name {
             return;
         }
-        if self.word_ahead(0) == "return" && self.ahead(1) != TokenKind::Equals {
+        if self.word_ahead(0) == "return" && !definition_begins(&self.tokens, self.at) {
             self.bump();
             return;
         }

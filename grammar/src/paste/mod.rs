@@ -118,7 +118,7 @@ impl Facts {
                     }
                 }
                 TokenKind::Name if !is_show => {
-                    let before = at.checked_sub(1).and_then(|before| tokens.get(before));
+                    let before = [1, 2].map(|n| at.checked_sub(n).and_then(|n| tokens.get(n)));
                     let after = [1, 2].map(|n| tokens.get(at + n).map(|token| token.kind));
                     facts.name(text, before, token, after);
                 }
@@ -128,19 +128,24 @@ impl Facts {
         facts
     }
 
-    /// Takes in a name and its neighbours, of which two are behind it.
+    /// Takes in a name and its neighbours: two before it, the nearer first, and the kinds of two behind it.
     fn name(
         &mut self,
         text: &str,
-        before: Option<&Token>,
+        before: [Option<&Token>; 2],
         name: &Token,
         after: [Option<TokenKind>; 2],
     ) {
         const LONGEST: u32 = 6;
-        let is_suffix = before.is_some_and(|before| {
-            matches!(before.kind, TokenKind::Number | TokenKind::Dot)
-                && before.span.end == name.span.start
-        });
+        let is_number = |token: Option<&Token>| token.is_some_and(|t| t.kind == TokenKind::Number);
+        let is_suffix = match before[0] {
+            Some(before) if before.span.end == name.span.start => {
+                matches!(before.kind, TokenKind::Number | TokenKind::Dot)
+            }
+            // a component; but `2. x` is a product
+            Some(point) => point.kind == TokenKind::Dot && !is_number(before[1]),
+            None => false,
+        };
         if is_suffix || name.span.end - name.span.start > LONGEST {
             return;
         }
