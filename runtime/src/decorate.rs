@@ -188,7 +188,8 @@ mod tests {
         check(&[]);
         check(&[MAGIC]);
         check(&whole[1..]);
-        check(&whole[..whole.len() - 1]);
+        // in the middle of the first instruction, which has two words
+        check(&whole[..HEADER + 1]);
         check(&[&whole[..HEADER], &[0]].concat());
         check(&[&whole[..HEADER], &[u32::MAX]].concat());
         check(&[&whole[..HEADER], &[2 << 16 | 129, 1]].concat());

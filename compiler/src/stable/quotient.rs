@@ -63,10 +63,7 @@ impl Pass {
                 .map(|p| p.terms.len());
             std::cmp::Reverse(terms.unwrap_or(1))
         });
-        let mut out = numerator;
-        for d in divisors {
-            out = g.div(out, d);
-        }
+        let out = divided(g, numerator, &divisors);
         self.by(Rule::Quotients, out)
     }
 
@@ -87,8 +84,9 @@ impl Pass {
             let before = p.terms.len() + q.terms.len();
             let constants = |p: &Polynomial| p.terms.iter().filter(|(m, _)| m.is_empty()).count();
             let had = constants(&p) + constants(&q);
-            let rest = p.add(&q, -1.0)?;
-            let lost = !rest.lost.is_empty() || (had == 2 && constants(&rest) == 0);
+            let rest = p.clone().add(&q, -1.0)?;
+            let gone = !rest.lost.is_empty() || (had == 2 && constants(&rest) == 0);
+            let lost = gone && an_end_is_lost(&[&p, &q], &rest);
             let small = rest.terms.len() <= 2 && rest.terms.len() < before;
             if lost && small && self.on(Rule::Cancel) && !self.unbounded(g, &rest, divisors) {
                 self.lose(&rest);
@@ -189,6 +187,30 @@ impl Pass {
             divisors,
         })
     }
+}
+
+/// Whether the terms of highest or of lowest degree have vanished: only those are what large or small values cancel in.
+fn an_end_is_lost(before: &[&Polynomial], after: &Polynomial) -> bool {
+    let degrees = |p: &Polynomial| -> Vec<i32> { p.terms.iter().map(|(m, _)| order(m)).collect() };
+    let all: Vec<i32> = before.iter().flat_map(|p| degrees(p)).collect();
+    let left = degrees(after);
+    left.iter().max() < all.iter().max() || left.iter().min() > all.iter().min()
+}
+
+/// Sum of the exponents.
+fn order(monomial: &Monomial) -> i32 {
+    monomial.iter().map(|(_, power)| power).sum()
+}
+
+/// The numerator divided by each divisor in turn; of a product one factor is, so that the product itself, which may
+/// overflow, is not formed.
+fn divided(g: &mut Graph, numerator: Id, divisors: &[Id]) -> Id {
+    let node = g.node(numerator);
+    if let (Op::Apply(Prim::Mul), &[a, b]) = (node.op, node.args.as_slice()) {
+        let quotient = divisors.iter().fold(b, |n, &d| g.div(n, d));
+        return g.mul(a, quotient);
+    }
+    divisors.iter().fold(numerator, |n, &d| g.div(n, d))
 }
 
 /// The polynomial as if it had been written so.

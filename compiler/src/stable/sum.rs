@@ -340,6 +340,11 @@ impl Pass {
             ) else {
                 continue;
             };
+            // a difference that is still one may cancel as before, and then nothing is gained
+            let remains = |id| matches!(self.view(g, id).0, Some(Prim::Add | Prim::Sub));
+            if remains(first) || remains(second) {
+                continue;
+            }
             let (left, right) = (g.mul(a, second), g.mul(d, first));
             let sum = g.add(left, right);
             return self.by(Rule::Products, sum);

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use pullback_compiler::lower::Exactness;
 use pullback_runtime::device::{self, AdapterSummary};
 use pullback_runtime::{Capabilities, Error};
 use serde::Serialize;
@@ -121,10 +122,22 @@ impl From<Result<String, String>> for Tier {
 
 impl Tiers {
     fn new(found: &Capabilities) -> Self {
-        let exact =
-            |form: pullback_compiler::lower::Exactness| format!("exact steps {}", form.name());
+        // the form that shaders have today is the one that is exact on every adapter tried
+        let used = Exactness::default();
+        let steps = |best: Exactness| {
+            let mut how = format!("exact steps {}", used.name());
+            if best != used {
+                how += &format!("; {} would be exact, too", best.name());
+            }
+            how
+        };
+        let exact = if found.is_exact(used) {
+            found.extended().map(steps)
+        } else {
+            Err(format!("exact steps {} are not exact here", used.name()))
+        };
         Self {
-            extended: found.extended().map(exact).into(),
+            extended: exact.into(),
             double: found.double().map(|()| "native".to_owned()).into(),
         }
     }
