@@ -20,7 +20,7 @@ use pullback_tests::accuracy::subjects::formula;
 fn machines() -> Vec<Machine> {
     let mut machines = vec![Machine::Reference];
     if let Some(gpu) = suite_gpu() {
-        for tier in [Precision::Accurate] {
+        for tier in [Precision::Accurate, Precision::Extended, Precision::Double] {
             machines.push(Machine::Gpu(Box::new(gpu.clone()), tier));
         }
     }
@@ -186,7 +186,7 @@ fn exponentials_do_not_lose_their_phase() {
         trap(
             "f(z: complex) = exp(z)",
             &[89.0, 1.570_312_5],
-            &[2.172_194_895_880_303_2e35, NOT_STATED],
+            &[2.172_194_895_880_303e35, NOT_STATED],
             2.1,
         ),
     ]);
@@ -313,13 +313,13 @@ fn inverse_hyperbolic_cosines_stay_on_their_branch() {
         trap(
             "f(z: complex) = acosh(z)",
             &[-2.0, 0.5],
-            &[1.361_800_900_857_845_8, 2.863_838_397_032_079_3],
+            &[1.361_800_900_857_845_8, 2.863_838_397_032_079],
             2.4,
         ),
         trap(
             "f(z: complex) = acosh(z)",
             &[-2.0, -0.5],
-            &[1.361_800_900_857_845_8, -2.863_838_397_032_079_3],
+            &[1.361_800_900_857_845_8, -2.863_838_397_032_079],
             2.4,
         ),
         trap(

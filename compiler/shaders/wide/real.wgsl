@@ -26,7 +26,7 @@ fn real_fract(a: real) -> real {
         return make_nan(a);
     }
     let f = real_sub(a, real_floor(a));
-    return choose(real_less(f, num(1.0)), f, below_one());
+    return choose(real_less(f, below_one()), f, below_one());
 }
 
 /// -1, 0 or 1; 0 for both zeros.
@@ -329,7 +329,17 @@ fn real_log10(x: real) -> real {
     let l = real_add(s.fraction, log1p_tail(s.fraction));
     // log10 2 = 0.301025390625 + 4.6 … e-6, the first exact times every exponent
     let low = real_add(mul32(lit(4.605039e-06, -8.5323445e-14, 1.6449935e-21), n), real_mul(l, lit(0.4342945, -1.010305e-08, -1.00039104e-16)));
-    return real_add(mul32(num(0.301025390625), n), low);
+    let r = real_add(mul32(num(0.301025390625), n), low);
+    // of a power of ten that the format holds, the whole number itself: ⌊log10 x⌋ counts digits
+    let whole = floor(real_to_f32(r) + 0.5);
+    if whole < 1.0 || whole > 22.0 || abs(real_to_f32(real_sub(r, num(whole)))) > 1e-10 {
+        return r;
+    }
+    var power = num(1.0);
+    for (var k = 0.0; k < whole; k += 1.0) {
+        power = mul32(power, 10.0);
+    }
+    return choose(real_equal(power, x), num(whole), r);
 }
 
 /// log(1 + x), accurate near 0; -∞ at -1, NaN below.

@@ -380,9 +380,10 @@ fn real_atan2(y: real, x: real) -> real {
     return with_sign(r, y);
 }
 
-/// (1 - x)(1 + x), each factor exact where it matters.
+/// (1 - x)(1 + x), each factor exact where it matters; of |x|, for a product of pairs is not the same in both orders.
 fn one_minus_square(x: real) -> real {
-    return real_mul(rounded(add32(real_neg(x), 1.0)), rounded(add32(x, 1.0)));
+    let a = real_abs(x);
+    return real_mul(rounded(add32(real_neg(a), 1.0)), rounded(add32(a, 1.0)));
 }
 
 /// arcsin x, the angle of (√(1 - x²), x); NaN outside of [-1, 1].

@@ -27,9 +27,9 @@ impl Lowering<'_, '_, '_> {
             Argument::Offset(a, index) => {
                 let base = self.argument(a)?;
                 let offset = self.part(base, index);
-                self.from_center(offset, index)
+                self.beside_center(offset, index)
             }
-            Argument::OffsetPoint(a) => self.point_from_center(a),
+            Argument::OffsetPoint(a) => self.point_at_center(a),
         }
     }
 
@@ -57,7 +57,7 @@ impl Lowering<'_, '_, '_> {
     }
 
     /// A world coordinate: that of the view's centre, which has all digits of the tier, plus an offset.
-    fn from_center(&mut self, offset: Value, index: u32) -> Result<Value, LowerError> {
+    fn beside_center(&mut self, offset: Value, index: u32) -> Result<Value, LowerError> {
         match self.leaves {
             Leaves::Words(wide) => {
                 let center = self.word_number(wide, "center", index)?;
@@ -73,7 +73,7 @@ impl Lowering<'_, '_, '_> {
         }
     }
 
-    fn point_from_center(&mut self, a: u32) -> Result<Value, LowerError> {
+    fn point_at_center(&mut self, a: u32) -> Result<Value, LowerError> {
         let offset = self.argument(a)?;
         if let Leaves::Uniforms { clock, .. } = self.leaves {
             let pointer = self.member(clock, "center")?;
@@ -81,7 +81,7 @@ impl Lowering<'_, '_, '_> {
             return Ok(self.binary(BinaryOperator::Add, center, offset));
         }
         let (x, y) = (self.part(offset, 0), self.part(offset, 1));
-        let (x, y) = (self.from_center(x, 0)?, self.from_center(y, 1)?);
+        let (x, y) = (self.beside_center(x, 0)?, self.beside_center(y, 1)?);
         Ok(self.complex(x, y))
     }
 

@@ -158,7 +158,7 @@ impl Pattern {
     /// What is seen where a value that changes by `rate` from pixel to pixel has an error.
     fn seen(self, value: f64, error: f64, rate: f64) -> Sight {
         // what is finer than a pixel is drawn as its mean
-        if !(rate < self.period) {
+        if rate.is_nan() || rate >= self.period {
             return Sight::default();
         }
         let colour = error / self.colour;

@@ -182,6 +182,7 @@ mod tests {
             } else {
                 a
             };
+            #[allow(clippy::eq_op, reason = "what a driver makes of x - x is the question")]
             let numbers = [
                 s,
                 e,
