@@ -21,7 +21,7 @@ fn check(precision: Precision) {
     let mut found = Vec::new();
     for subject in &mut subjects() {
         if precision == Precision::Extended {
-            let has_digits = |x: &f64| *x == 0.0 || !(x.abs() < LEAST_OF_PAIRS);
+            let has_digits = |x: &f64| *x == 0.0 || x.is_nan() || x.abs() >= LEAST_OF_PAIRS;
             subject
                 .cases
                 .retain(|case| case.args.iter().all(has_digits));
