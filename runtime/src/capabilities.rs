@@ -68,7 +68,7 @@ pub struct Arithmetic {
 
 /// Largest errors in units in the last place of the result, for normal arguments and results; up to 0.5 is correct.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "each field is the operation that it names")]
 pub struct Rounding {
     pub sum: f64,
     pub difference: f64,
@@ -99,7 +99,7 @@ const CORRECT: f64 = 0.5 + 1e-6;
 
 /// Operations whose results IEEE 754 fixes and the adapter does not give, under what they are about. Empty is good.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "each field is what its operations are about")]
 pub struct Special {
     pub subnormal_results: Vec<String>,
     pub subnormal_arguments: Vec<String>,

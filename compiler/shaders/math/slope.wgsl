@@ -35,13 +35,13 @@ fn real_direction3(x: f32, y: f32, z: f32, r: f32) -> f32 {
     return select(x / r, 0.0, r == 0.0);
 }
 
-/// 1/(1 + z²). Error: 6 ulp each component.
+/// 1/(1 + z²). Error: 6 ulp of the norm.
 fn complex_atan_slope(z: vec2f) -> vec2f {
     return complex_atanh_slope(complex_mul_i(z));
 }
 
 /// 1/(1 - z²), of z scaled by a power of two so that no square overflows; 1 - x² + y² is summed in pairs, so that each
-/// component has its digits. Error: 6 ulp each component.
+/// component has its digits. Error: 6 ulp of the norm.
 fn complex_atanh_slope(z: vec2f) -> vec2f {
     if complex_is_infinite(z) {
         return vec2f(0.0, 0.0);
@@ -66,7 +66,7 @@ fn part_of_root(x: f32, y: f32, v: f32, other: f32) -> f32 {
 }
 
 /// 1/(√(1 - z) √(1 + z)). Of the product s one component is a sum of terms of one sign, and the other follows from
-/// s² = 1 - z². Error: 6 ulp each component.
+/// s² = 1 - z². Error: 6 ulp of the norm.
 fn complex_asin_slope(z: vec2f) -> vec2f {
     let below = complex_sqrt(vec2f(1.0 - z.x, flip_sign(z.y, 0x80000000u)));
     let above = complex_sqrt(vec2f(1.0 + z.x, z.y));
@@ -75,12 +75,12 @@ fn complex_asin_slope(z: vec2f) -> vec2f {
     return complex_inverse(vec2f(re, part_of_root(-z.x, z.y, re, im)));
 }
 
-/// 1/(√(1 + i z) √(1 - i z)). Error: 6 ulp each component.
+/// 1/(√(1 + i z) √(1 - i z)). Error: 6 ulp of the norm.
 fn complex_asinh_slope(z: vec2f) -> vec2f {
     return complex_asin_slope(complex_mul_i(z));
 }
 
-/// 1/(√(z - 1) √(z + 1)), likewise. Error: 6 ulp each component.
+/// 1/(√(z - 1) √(z + 1)), likewise. Error: 6 ulp of the norm.
 fn complex_acosh_slope(z: vec2f) -> vec2f {
     let below = complex_sqrt(vec2f(z.x - 1.0, z.y));
     let above = complex_sqrt(vec2f(z.x + 1.0, z.y));

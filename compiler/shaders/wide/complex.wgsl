@@ -2,8 +2,9 @@
 // infinities after C99 Annex G. Numbers are scaled so that the larger component is about 2^30, which leaves room below
 // for the smaller one: pairs have the exponents of their high words.
 //
-// The error bounds of these files are those of tests/tests/wide_complex.rs: u is 2^-48 for pairs and 2^-53 for f64.
-// In pairs they hold for results of at least 2^-80, below which the low words are subnormal.
+// "Error" in these files is an estimate: u is 2^-48 for pairs and 2^-53 for f64. What is declared stands in
+// compiler/src/table/bounds.tsv, and `pullback accuracy` measures it. In pairs it is meant for results of at least 2^-80,
+// below which the low words are subnormal.
 
 /// Whether a component is infinite: then the number is, whatever the other is (C99 G.3).
 fn complex_is_infinite(z: Complex) -> bool {

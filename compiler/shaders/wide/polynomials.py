@@ -103,6 +103,13 @@ def main():
         sys.stdout.flush()
     for name, v in CONSTANTS.items():
         print(name, "lit(" + ", ".join(shortest(x) for x in words(v, 3)) + ")")
+    print("trigonometry.wgsl: words of pi/2", ", ".join(shortest(x) for x in words(pi / 2, 6)))
+    for k in range(1, 9):
+        print(f"arctan({k}/8) lit(" + ", ".join(shortest(x) for x in words(atan(mpf(k) / 8), 3)) + ")")
+    with workprec(1400):
+        turns = 2 / pi
+        for i in range(40):
+            print(f"2/pi, word {i}: 0x{int(floor(turns * 2 ** (32 * (i + 1)))) % 2**32:08x}u")
 
 
 if __name__ == "__main__":

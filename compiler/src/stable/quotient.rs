@@ -54,7 +54,7 @@ impl Pass {
         }
         let first = product(g, left.numerator, &missing_left);
         let second = product(g, right.numerator, &missing_right);
-        let mut numerator = self.simple_difference(g, first, second, &divisors, depth)?;
+        let mut numerator = self.simple_difference(g, first, second, depth)?;
         self.shorten(g, &mut numerator, &mut divisors);
         // the divisors with more terms first: what the numerator is near to
         divisors.sort_by_key(|&d| {
@@ -68,14 +68,7 @@ impl Pass {
     }
 
     /// a - b, where multiplying out makes it short, or another rule does.
-    fn simple_difference(
-        &mut self,
-        g: &mut Graph,
-        a: Id,
-        b: Id,
-        divisors: &[Id],
-        depth: usize,
-    ) -> Option<Id> {
+    fn simple_difference(&mut self, g: &mut Graph, a: Id, b: Id, depth: usize) -> Option<Id> {
         let (p, q) = (
             self.polynomial(g, a, Expand::All),
             self.polynomial(g, b, Expand::All),
@@ -88,7 +81,7 @@ impl Pass {
             let gone = !rest.lost.is_empty() || (had == 2 && constants(&rest) == 0);
             let lost = gone && an_end_is_lost(&[&p, &q], &rest);
             let small = rest.terms.len() <= 2 && rest.terms.len() < before;
-            if lost && small && self.on(Rule::Cancel) && !self.unbounded(g, &rest, divisors) {
+            if lost && small && self.on(Rule::Cancel) && !self.unbounded(g, &rest) {
                 self.lose(&rest);
                 self.by(Rule::Cancel, ())?;
                 let terms = rest.terms.clone();
@@ -108,7 +101,7 @@ impl Pass {
     }
 
     /// Whether the numerator grows with an exponential, which would make ∞/∞ of what is finite.
-    fn unbounded(&self, g: &Graph, p: &Polynomial, _divisors: &[Id]) -> bool {
+    fn unbounded(&self, g: &Graph, p: &Polynomial) -> bool {
         p.terms.iter().any(|(monomial, _)| {
             monomial.iter().any(|&(atom, _)| {
                 let fast = [
