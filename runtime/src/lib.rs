@@ -29,6 +29,7 @@ pub mod kernel;
 pub mod probe;
 pub mod render;
 pub mod rows;
+pub mod shader;
 
 mod buffers;
 mod scale;

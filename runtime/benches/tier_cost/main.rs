@@ -21,7 +21,7 @@ use std::time::{Duration, Instant};
 use pullback_compiler::lower::Precision;
 use pullback_compiler::scene::Space;
 use pullback_compiler::{Program, compile};
-use pullback_runtime::{AdapterChoice, Gpu, Pipeline, Size, View, fill_in_scale};
+use pullback_runtime::{AdapterChoice, Capabilities, Gpu, Pipeline, Size, View, fill_in_scale};
 
 use stage::{Canvas, Stage, Uniforms};
 
@@ -147,8 +147,9 @@ fn measure(gpu: &Gpu, text: &str, options: &Options) -> Result<Vec<Option<f64>>,
             stages.push(None);
             continue;
         }
+        let tier = Capabilities::tier(gpu, precision).map_err(|e| e.to_string())?;
         let scene = program
-            .scene_module(0, precision)
+            .scene_module(0, tier)
             .map_err(|e| e[0].message.clone())?;
         let canvas = match &canvas {
             Some(canvas) => canvas,
@@ -158,7 +159,7 @@ fn measure(gpu: &Gpu, text: &str, options: &Options) -> Result<Vec<Option<f64>>,
                 canvas.insert(made)
             }
         };
-        let stage = canvas.stage(&scene.module, precision.format(), Pipeline::Compute);
+        let stage = canvas.stage(&scene.module, &scene.info, scene.tier, Pipeline::Compute);
         stages.push(Some(stage.map_err(|e| e.to_string())?));
     }
     let canvas = canvas.ok_or("no tier")?;

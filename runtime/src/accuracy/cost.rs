@@ -12,7 +12,7 @@ use super::random::{Random, Spread};
 use super::stopwatch::{Clock, Timed};
 use super::subjects::{Subject, formula};
 use super::tables::Domain;
-use crate::{Error, Gpu};
+use crate::{Capabilities, Error, Gpu};
 
 /// Most steps of a loop (docs/limits.md).
 const MOST_STEPS: f64 = 100_000.0;
@@ -126,8 +126,9 @@ impl<'g> Meter<'g> {
     ) -> Result<Loops<'_>, String> {
         let timed = |step: &str| {
             let formula = formula(&program(subject, step))?;
+            let best = Capabilities::tier(self.gpu, tier).map_err(|e| e.to_string())?;
             let module =
-                EvalModule::new(&formula, What::Value, tier).map_err(|e| format!("{e:?}"))?;
+                EvalModule::new(&formula, What::Value, best).map_err(|e| format!("{e:?}"))?;
             let rows = rows(points, tier, self.threads as usize);
             Timed::new(self.gpu, self.clock.as_ref(), &module, &rows, self.threads)
                 .map_err(|error| error.to_string())

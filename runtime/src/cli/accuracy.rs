@@ -125,7 +125,7 @@ fn tiers(
     let mut tiers: Vec<Option<Precision>> = Vec::new();
     for judged in asked {
         if let (Some(tier), Some(gpu)) = (judged.tier(), gpu) {
-            super::demand(gpu, tier)?;
+            super::tier(gpu, tier)?;
         }
         if !tiers.contains(&judged.tier()) {
             tiers.push(judged.tier());

@@ -4,7 +4,7 @@ use pullback_compiler::formula::Formula;
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{EvalModule, Evaluator, What, compile_function};
 use pullback_runtime::evaluate::Surroundings;
-use pullback_runtime::{Gpu, GpuEvaluator};
+use pullback_runtime::{Capabilities, Gpu, GpuEvaluator};
 
 use super::bits::Exact;
 use super::data::{Benchmark, Sample};
@@ -149,7 +149,8 @@ pub fn results(
     if !gpu.has(precision) {
         return Ok(None);
     }
-    let module = EvalModule::new(formula, What::Value, precision).map_err(|e| format!("{e:?}"))?;
+    let tier = Capabilities::tier(gpu, precision).map_err(|e| e.to_string())?;
+    let module = EvalModule::new(formula, What::Value, tier).map_err(|e| format!("{e:?}"))?;
     let mut evaluator = GpuEvaluator::new(gpu, &module).map_err(|e| e.to_string())?;
     let rows: Vec<f64> = points
         .iter()
