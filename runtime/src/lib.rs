@@ -32,6 +32,7 @@ pub mod rows;
 pub mod shader;
 
 mod buffers;
+mod pool;
 mod scale;
 mod tiles;
 mod uniforms;
