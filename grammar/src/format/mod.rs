@@ -10,7 +10,7 @@ mod pieces;
 
 use crate::Span;
 use crate::parse::{Reading, read};
-use crate::printer::print_item;
+use crate::printer::print_item_of;
 use crate::token::{TokenKind, comments};
 use foreign::Foreign;
 use pieces::{Roles, Source};
@@ -83,7 +83,7 @@ fn write(text: &str, reading: &Reading) -> String {
             inside
                 .iter()
                 .for_each(|comment| page.comment_alone(*comment));
-            let lines = print_item(&reading.parsed.file.exprs, item);
+            let lines = print_item_of(text, &reading.parsed.file.exprs, item);
             let has_sign = lines.starts_with(['-', '+']);
             page.statement(&lines, span, has_sign);
             continue;
