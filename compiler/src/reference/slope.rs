@@ -67,8 +67,12 @@ pub fn acosh(x: f64) -> f64 {
     1.0 / ((x - 1.0).sqrt() * (x + 1.0).sqrt())
 }
 
-/// x/r for a coordinate x of a point at the distance r from the origin, and 0 there.
-pub fn direction(x: f64, r: f64) -> f64 {
+/// x/r for r = |(x, y, z)|, and 0 at the origin. Where r overflows, that of a quarter of the point.
+pub fn direction(x: f64, y: f64, z: f64, r: f64) -> f64 {
+    if r.is_infinite() && x.is_finite() && y.is_finite() && z.is_finite() {
+        let (x, y, z) = (0.25 * x, 0.25 * y, 0.25 * z);
+        return x / x.hypot(y.hypot(z));
+    }
     if r == 0.0 { 0.0 } else { x / r }
 }
 
