@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree as _;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use pullback_compiler::What;
-use pullback_compiler::lower::{Format, Precision};
+use pullback_compiler::lower::Precision;
 use pullback_tests::accuracy::bounds::declared;
 use pullback_tests::accuracy::error::Judge;
 use pullback_tests::accuracy::evaluators::{Machine, Point, suite_gpu};
@@ -74,13 +74,6 @@ fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
 }
 
-/// Whether two numbers are the same; complex numbers of pairs within the bound that is declared for all their functions,
-/// because a product of pairs is not the same in both orders of its factors.
-fn alike(a: f64, b: f64, machine: &Machine, complex: bool) -> bool {
-    let last = complex && machine.format() == Format::Pair;
-    same(a, b) || last && (a - b).abs() <= 2f64.powi(-42) * a.abs()
-}
-
 /// Holds f(turn(z)) = turned f(z) bit for bit, signs of zeros too, for every function.
 fn symmetric(functions: &[&str], domain: &str, turn: &[f64], turned: &[f64]) {
     let flat = numbers(600 * turn.len(), 20.0);
@@ -100,7 +93,7 @@ fn symmetric(functions: &[&str], domain: &str, turn: &[f64], turned: &[f64]) {
                     .iter()
                     .zip(turned)
                     .zip(b)
-                    .all(|((a, s), b)| alike(a * s, *b, machine, turn.len() == 2));
+                    .all(|((a, s), b)| same(a * s, *b));
                 if !equal {
                     wrong.push(format!(
                         "{}: {name} at {point:?}: {a:?}, {b:?}",
