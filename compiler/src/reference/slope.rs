@@ -81,6 +81,17 @@ fn sides(z: Complex) -> (Complex, Complex) {
     (complex(1.0 - z.re, -z.im), complex(1.0 + z.re, z.im))
 }
 
+/// Of an even function that is real on the real axis, so that it is both bit for bit: a product is not the same in both
+/// orders of its factors. f(-z̄) is the conjugate of f(z).
+fn in_right_half(z: Complex, f: impl Fn(Complex) -> Complex) -> Complex {
+    let value = f(complex(z.re.abs(), z.im));
+    if z.re.is_sign_negative() {
+        value.conj()
+    } else {
+        value
+    }
+}
+
 /// 1/(1 + z²).
 pub fn complex_atan(z: Complex) -> Complex {
     complex_atanh(z.mul_i())
@@ -88,14 +99,18 @@ pub fn complex_atan(z: Complex) -> Complex {
 
 /// 1/(1 - z²).
 pub fn complex_atanh(z: Complex) -> Complex {
-    let (below, above) = sides(z);
-    below.inverse() * above.inverse()
+    in_right_half(z, |z| {
+        let (below, above) = sides(z);
+        below.inverse() * above.inverse()
+    })
 }
 
 /// 1/(√(1 - z) √(1 + z)), whose cuts are those of arcsin (Kahan 1987).
 pub fn complex_asin(z: Complex) -> Complex {
-    let (below, above) = sides(z);
-    (below.sqrt() * above.sqrt()).inverse()
+    in_right_half(z, |z| {
+        let (below, above) = sides(z);
+        (below.sqrt() * above.sqrt()).inverse()
+    })
 }
 
 /// 1/(√(1 + i z) √(1 - i z)), whose cuts are those of arsinh.

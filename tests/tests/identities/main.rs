@@ -1,6 +1,11 @@
 //! Identities that hold whatever the reference says: symmetries bit for bit, inverse functions, limits. Tolerances are
 //! made of declared bounds. Random points are the same in every run.
 
+mod inverses;
+mod limits;
+mod periodicity;
+mod slopes;
+
 use proptest::prelude::*;
 use proptest::strategy::ValueTree as _;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -56,18 +61,32 @@ fn run(machine: &Machine, source: &str, what: What, args: &[Vec<f64>]) -> Vec<Ve
     machine.run(&formula(source), what, &points).expect(source)
 }
 
+/// The same at two sets of points, by one shader: compiling it is what takes time.
+fn run_twice(
+    machine: &Machine,
+    source: &str,
+    what: What,
+    first: &[Vec<f64>],
+    second: &[Vec<f64>],
+) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+    let mut here = run(machine, source, what, &[first, second].concat());
+    let there = here.split_off(first.len());
+    (here, there)
+}
+
+/// The declared bounds of a function's value and derivative, in units in the last place; 0 where none is needed.
+fn units(word: &str, domain: Domain, machine: &Machine) -> (f64, f64) {
+    let all = subjects();
+    let mut found = all.iter().filter(|s| s.word == word);
+    let subject = found.find(|s| s.domain == domain).expect(word);
+    let bounds = declared(subject, machine).expect(word);
+    let derivative = bounds.derivative.map_or(0.0, |b| b.units);
+    (bounds.value.expect(word).units, derivative)
+}
+
 /// The declared bound of a real function, in units in the last place.
 fn bound(word: &str, machine: &Machine) -> f64 {
-    let all = subjects();
-    let subject = all
-        .iter()
-        .find(|s| s.word == word && s.domain == Domain::Real)
-        .expect(word);
-    declared(subject, machine)
-        .expect(word)
-        .value
-        .expect(word)
-        .units
+    units(word, Domain::Real, machine).0
 }
 
 fn same(a: f64, b: f64) -> bool {
@@ -86,8 +105,7 @@ fn symmetric(functions: &[&str], domain: &str, turn: &[f64], turned: &[f64]) {
     for machine in &machines() {
         for name in functions {
             let source = format!("f({domain}) = {name}({})\n", &domain[..1]);
-            let here = run(machine, &source, What::Value, &points);
-            let there = run(machine, &source, What::Value, &images);
+            let (here, there) = run_twice(machine, &source, What::Value, &points, &images);
             for ((point, a), b) in points.iter().zip(&here).zip(&there) {
                 let equal = a
                     .iter()
