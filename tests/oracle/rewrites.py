@@ -147,15 +147,26 @@ COMPLEX = [
     ("log-power", "f(z) = log(abs(z^9))", lambda z: 9*log(abs(z)), z(1e-100, 1e100)),
 ]
 
+# what leaves the range of numbers on its way; drawn from a sequence of its own
+RANGE = [
+    ("power-quotient", "f(x: real) = x^9/x^8", lambda x: x, point(size(1e-200, 1e200))),
+    ("power-quotient", "f(x, y) = (x^3 y - 3 x^2)/(2 x^2)", lambda x, y: (x*y - 3)/2, point(size(1e-200, 1e200), size(1e-9, 1e9))),
+    ("power-quotient", "f(x, y) = y*exp(x)/exp(x)", lambda x, y: y, point(size(1, 2000), any_)),
+    ("square-quotient", "f(x, y) = (x^2 - y^2)/(x^2 + y^2)", lambda x, y: (x*x-y*y)/(x*x+y*y), close(1e-170, 1e170, 1e-10, 0.5)),
+    ("square-quotient", "f(x, y) = (x^2 + y^2 - 1)/(x^2 + y^2 + 1)", lambda x, y: (x*x+y*y-1)/(x*x+y*y+1), point(size(1e-5, 1e170), size(10, 1e170))),
+    ("square-quotient", "f(x: real) = 2*x/(x^2 + 1)", lambda x: 2*x/(x*x+1), point(size(1, 1e170))),
+    ("square-quotient", "f(x: real) = (x^2 + 3*x)/(1 + 4*x^2)", lambda x: (x*x+3*x)/(1+4*x*x), point(size(1, 1e170))),
+    ("arg-exp", "f(x, y) = arg(exp(x + y*i))", lambda x, y: mp.atan2(sin(y), cos(y)), point(size(1, 2000), size(1e-3, 1e3))),
+]
+
 
 def text(x):
     return mpmath.nstr(mpf(x), 25)
 
 
-def main():
-    OUT.mkdir(exist_ok=True)
-    with open(OUT / "real.tsv", "w") as out:
-        for rules, formula, f, draw in REAL:
+def write_real(name, formulas):
+    with open(OUT / name, "w") as out:
+        for rules, formula, f, draw in formulas:
             out.write(f"# {rules}\t{formula}\n")
             rows = 0
             while rows < 60:
@@ -165,6 +176,11 @@ def main():
                     continue
                 out.write("\t".join([repr(a) for a in args] + [text(value)]) + "\n")
                 rows += 1
+
+
+def main():
+    OUT.mkdir(exist_ok=True)
+    write_real("real.tsv", REAL)
     with open(OUT / "complex.tsv", "w") as out:
         for rules, formula, f, draw in COMPLEX:
             out.write(f"# {rules}\t{formula}\n")
@@ -172,6 +188,8 @@ def main():
                 arg = draw()
                 value = mpc(f(arg))
                 out.write("\t".join([repr(float(arg.real)), repr(float(arg.imag)), text(value.real), text(value.imag)]) + "\n")
+    random.seed(8)
+    write_real("range.tsv", RANGE)
 
 
 if __name__ == "__main__":

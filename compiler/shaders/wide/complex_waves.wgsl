@@ -163,8 +163,9 @@ fn complex_asin(z: Complex) -> Complex {
     if complex_has_nan(z) {
         return complex_div_i(asinh_of_nan(complex_mul_i(z)));
     }
-    let arc = complex_arc(z);
-    return Complex(arc.asin, with_sign(arc.im, z.im));
+    // in the right half plane, so that it is odd bit for bit
+    let arc = complex_arc(Complex(real_abs(z.re), z.im));
+    return Complex(with_sign(arc.asin, z.re), with_sign(arc.im, z.im));
 }
 
 /// arccos z, cuts on the real axis outside [-1, 1].

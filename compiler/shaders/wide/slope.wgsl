@@ -51,14 +51,16 @@ fn complex_atan_slope(z: Complex) -> Complex {
 
 /// 1/(1 - z²). Error: 10 u of the norm.
 fn complex_atanh_slope(z: Complex) -> Complex {
-    let sides = complex_sides(z);
-    return complex_mul(complex_inverse(sides.first), complex_inverse(sides.second));
+    let sides = complex_sides(Complex(real_abs(z.re), z.im));
+    let slope = complex_mul(complex_inverse(sides.first), complex_inverse(sides.second));
+    return Complex(slope.re, flip_if(slope.im, sign_is_set(z.re)));
 }
 
 /// 1/(√(1 - z) √(1 + z)), whose cuts are those of arcsin (Kahan 1987). Error: 12 u of the norm.
 fn complex_asin_slope(z: Complex) -> Complex {
-    let sides = complex_sides(z);
-    return complex_inverse(complex_mul(complex_sqrt(sides.first), complex_sqrt(sides.second)));
+    let sides = complex_sides(Complex(real_abs(z.re), z.im));
+    let slope = complex_inverse(complex_mul(complex_sqrt(sides.first), complex_sqrt(sides.second)));
+    return Complex(slope.re, flip_if(slope.im, sign_is_set(z.re)));
 }
 
 /// 1/(√(1 + i z) √(1 - i z)), whose cuts are those of arsinh. Error: 12 u of the norm.

@@ -8,6 +8,7 @@ mod identifier;
 mod leaves;
 mod numbers;
 mod repeat;
+mod scaled;
 mod tier;
 mod types;
 

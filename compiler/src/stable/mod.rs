@@ -16,6 +16,7 @@ mod pass;
 mod polynomial;
 mod powers;
 mod quotient;
+mod range;
 mod remainder;
 mod rule;
 mod sum;
