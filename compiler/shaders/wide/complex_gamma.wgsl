@@ -74,12 +74,18 @@ fn complex_pi_cot_pi(z: Complex) -> Complex {
     );
 }
 
-/// Γ for Re z ≥ -1/2 or |Im z| ≥ 10.
-fn gamma_of_right(z: Complex) -> Complex {
+/// A quotient of complex numbers.
+struct ComplexRatio {
+    n: Complex,
+    d: Complex,
+}
+
+/// Γ / 2^down for Re z ≥ -1/2 or |Im z| ≥ 10.
+fn gamma_of_right(z: Complex, down: i32) -> ComplexRatio {
     let steps = steps_to_far(z);
     var product = complex_of_real(num(1.0));
     for (var k = 0; k < steps; k++) {
-        product = complex_mul(product, complex_step(z, k));
+        product = plain_product(product, complex_step(z, k));
     }
     // z + steps = top + lost, top - 1/2 = power + low
     let sum = long_sum(z.re, num(f32(steps)));
@@ -87,38 +93,55 @@ fn gamma_of_right(z: Complex) -> Complex {
     let power = long_sum(sum.hi, num(-0.5));
     let r = complex_inverse(top);
     // z^(z - 1/2) e^-z √(2π) e^s, |s| < 1/100
-    let tau = long_half_log_tau();
-    let s = complex_mul(r, complex_add_real(complex_series(complex_square(r), 0), mul32(sum.lo, -0.5)));
-    let shift = Complex(real_add(real_add(tau.hi, s.re), real_neg(top.re)), real_sub(s.im, top.im));
-    return complex_div(
-        power_and_exp(top, Complex(power.hi, z.im), real_add(power.lo, sum.lo), shift),
-        product,
+    let s = plain_product(r, complex_add_real(complex_series(complex_square(r), 0), mul32(sum.lo, -0.5)));
+    let shift = LongComplex(
+        long_add(long_half_log_tau(), long_sum(real_neg(top.re), s.re)),
+        long_sum(real_neg(top.im), s.im),
     );
+    let w = Complex(power.hi, z.im);
+    return ComplexRatio(power_and_exp(top, w, real_add(power.lo, sum.lo), shift, down), product);
 }
 
 /// Γ(z); NaN where a component is not finite. Error: 40 u of the norm for |z| < 100.
 fn complex_gamma(z: Complex) -> Complex {
-    if is_zero(z.im) {
-        let right = is_above(z.re, 1.0) && !sign_is_set(beyond_digamma_zero(z.re));
-        return Complex(real_gamma(z.re), flip_if(z.im, !right));
+    let flat = is_zero(z.im);
+    let right = is_above(z.re, 1.0) && !sign_is_set(beyond_digamma_zero(z.re));
+    let im_of_flat = flip_if(z.im, !right);
+    if flat {
+        let known = known_gamma(z.re);
+        if known.is_known {
+            return Complex(known.value, im_of_flat);
+        }
     }
     if !complex_is_finite(z) {
         return complex_nan(z.re);
     }
     if is_below(real_abs(z.re), 1e-9) && is_below(real_abs(z.im), 1e-9) { // DLMF 5.7.1
         let slope = complex_mul_real(z, lit(0.989056, 4.155182e-09, 5.1778575e-17));
-        return complex_add(complex_inverse(z), complex_add_real(slope, real_neg(lit(0.5772157, -6.637774e-09, 1.0607939e-16))));
+        let r = complex_add(complex_inverse(z), complex_add_real(slope, real_neg(lit(0.5772157, -6.637774e-09, 1.0607939e-16))));
+        return Complex(r.re, choose(flat, im_of_flat, r.im));
     }
     if is_above(real_abs(z.im), 1e3) && is_below(z.re, 100.0) { // |Γ| falls as e^(-π|y|/2)
         return complex_of_real(num(0.0));
     }
-    if is_below(z.re, 0.5) && !is_gamma_far(z) {
-        // Γ(z) = -π / (z sin πz Γ(-z))
-        let right = gamma_of_right(complex_neg(z));
-        let below = complex_mul(complex_mul(z, complex_sin_pi(z)), right);
-        return complex_mul_real(complex_inverse(below), real_neg(real_pi()));
+    let reflected = is_below(z.re, 0.5) && !is_gamma_far(z);
+    let start = complex_choose(reflected, complex_neg(z), z);
+    let size = real_to_f32(start.re);
+    if reflected && size > 0.3 * EXP_END { // below all numbers, also beside a pole
+        let sign = choose(flat, sincos_pi(z.re).first, num(1.0));
+        return Complex(signed_zero(sign), choose(flat, im_of_flat, num(0.0)));
     }
-    return gamma_of_right(z);
+    let down = select(0, i32(4.0 * size), reflected && size > 20.0); // Γ(-z) may overflow
+    let ratio = gamma_of_right(start, down);
+    var r = ratio.n;
+    if reflected { // Γ(z) = -π / (z sin πz Γ(-z))
+        let below = plain_product(plain_product(z, complex_sin_pi(z)), ratio.n);
+        r = complex_mul_real(ratio.d, real_neg(real_pi()));
+        r = complex_scale(plain_product(r, complex_inverse(below)), -down);
+    } else if !is_gamma_far(z) {
+        r = plain_product(r, complex_inverse(ratio.d));
+    }
+    return Complex(r.re, choose(flat, im_of_flat, r.im));
 }
 
 /// ψ(z) = Γ′(z)/Γ(z). Error: 40 u of max(|ψ|, 1).
@@ -142,7 +165,7 @@ fn complex_digamma(z: Complex) -> Complex {
     let top = complex_step(start, steps);
     let r = complex_inverse(top);
     let w = complex_square(r);
-    let series = complex_mul(w, complex_series(w, 1));
+    let series = plain_product(w, complex_series(w, 1));
     let half = complex_scale(r, -1);
     return complex_sub(complex_sub(complex_log(top), complex_add(half, series)), sum);
 }
@@ -166,8 +189,8 @@ fn complex_trigamma(z: Complex) -> Complex {
     let top = complex_step(start, steps);
     let r = complex_inverse(top);
     let w = complex_square(r);
-    let series = complex_add_real(complex_mul(r, complex_series(w, 2)), num(0.5));
-    var far = complex_add(r, complex_mul(w, series));
+    let series = complex_add_real(plain_product(r, complex_series(w, 2)), num(0.5));
+    var far = complex_add(r, plain_product(w, series));
     for (var k = steps - 1; k >= first; k--) {
         far = complex_add(far, complex_square(complex_inverse(complex_step(start, k))));
     }

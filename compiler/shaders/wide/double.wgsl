@@ -275,6 +275,29 @@ fn long_product(a: real, b: real) -> Long {
     return two_product(a, b, hidden_zero_of(a, b));
 }
 
+/// a + b (after Joldes, Muller, Popescu 2017, algorithm 6).
+fn long_add(a: Long, b: Long) -> Long {
+    let s = long_sum(a.hi, b.hi);
+    let t = long_sum(a.lo, b.lo);
+    let v = long_sum(s.hi, real_add(s.lo, t.hi));
+    return long_sum(v.hi, real_add(t.lo, v.lo));
+}
+
+/// a + b
+fn long_add_real(a: Long, b: real) -> Long {
+    let s = long_sum(a.hi, b);
+    return long_sum(s.hi, real_add(s.lo, a.lo));
+}
+
+/// a b + c d + e with about one rounding, however much cancels.
+fn sum_of_products(a: real, b: real, c: real, d: real, e: real) -> real {
+    let ab = long_product(a, b);
+    let s = long_sum(ab.hi, e);
+    let cd = long_product(c, d);
+    let t = long_sum(s.hi, cd.hi);
+    return long_to_real(long_add(long_sum(t.hi, ab.lo), long_add(long_sum(s.lo, t.lo), long_sum(cd.lo, num(0.0)))));
+}
+
 /// |a| as high · 2^high_exponent ± low · 2^low_exponent with integers.
 struct Pieces {
     high: u32,

@@ -108,7 +108,7 @@ fn real_polygamma(x: real, n: i32) -> real {
 fn complex_small_power(z: Complex, n: i32) -> Complex {
     var product = z;
     for (var k = 1; k < n; k++) {
-        product = complex_mul(product, z);
+        product = plain_product(product, z);
     }
     return product;
 }
@@ -121,11 +121,11 @@ fn complex_zeta(n: i32, z: Complex, first: i32) -> Complex {
     var series = complex_of_real(num(0.0));
     for (var k = 9; k >= 0; k--) {
         let factor = real_mul(zeta_coefficient(k), zeta_rising(n + 1, k));
-        series = complex_add_real(complex_mul(w, series), factor);
+        series = complex_add_real(plain_product(w, series), factor);
     }
-    let half = complex_add_real(complex_mul(r, series), num(0.5));
-    let near = complex_add_real(complex_mul(r, half), real_div(num(1.0), num(f32(n))));
-    var sum = complex_mul(complex_small_power(r, n), near);
+    let half = complex_add_real(plain_product(r, series), num(0.5));
+    let near = complex_add_real(plain_product(r, half), real_div(num(1.0), num(f32(n))));
+    var sum = plain_product(complex_small_power(r, n), near);
     for (var k = steps - 1; k >= first; k--) {
         sum = complex_add(sum, complex_small_power(complex_inverse(complex_step(z, k)), n + 1));
     }
@@ -152,17 +152,17 @@ fn complex_polygamma(z: Complex, n: i32) -> Complex {
     let square = complex_square(complex_mul_real(complex_inverse(complex_sin_pi(z)), real_pi()));
     let cot = complex_pi_cot_pi(z);
     let cc = complex_square(cot);
-    var reflected = complex_mul(square, cc);
+    var reflected = plain_product(square, cc);
     if n == 2 {
-        reflected = complex_scale(complex_mul(cot, square), 1);
+        reflected = complex_scale(plain_product(cot, square), 1);
     } else if n == 3 {
-        reflected = complex_mul(square, complex_add(complex_scale(square, 1), complex_scale(cc, 2)));
+        reflected = plain_product(square, complex_add(complex_scale(square, 1), complex_scale(cc, 2)));
     } else if n == 4 {
         let factor = complex_add(complex_scale(square, 4), complex_scale(cc, 3));
-        reflected = complex_mul(complex_mul(cot, square), factor);
+        reflected = plain_product(plain_product(cot, square), factor);
     } else {
         let outer = complex_scale(complex_add(complex_square(square), complex_square(cc)), 4);
-        reflected = complex_mul(square, complex_add(outer, complex_mul_real(reflected, num(88.0))));
+        reflected = plain_product(square, complex_add(outer, complex_mul_real(reflected, num(88.0))));
     }
     let regular = complex_mul_real(complex_zeta(n, complex_neg(z), 1), size);
     return complex_sub(complex_choose(odd, reflected, complex_neg(reflected)), regular);

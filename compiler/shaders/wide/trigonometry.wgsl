@@ -36,153 +36,31 @@ fn multiply_high(a: u32, b: u32) -> u32 {
     return a1 * b1 + (middle >> 16u) + (other >> 16u);
 }
 
-/// The bits 32 i + 1 … 32 i + 32 after the binary point of 2/π; 0 before the point.
-fn two_over_pi(i: i32) -> u32 {
-    switch i {
-        case 0: {
-            return 0xa2f9836eu;
-        }
-        case 1: {
-            return 0x4e441529u;
-        }
-        case 2: {
-            return 0xfc2757d1u;
-        }
-        case 3: {
-            return 0xf534ddc0u;
-        }
-        case 4: {
-            return 0xdb629599u;
-        }
-        case 5: {
-            return 0x3c439041u;
-        }
-        case 6: {
-            return 0xfe5163abu;
-        }
-        case 7: {
-            return 0xdebbc561u;
-        }
-        case 8: {
-            return 0xb7246e3au;
-        }
-        case 9: {
-            return 0x424dd2e0u;
-        }
-        case 10: {
-            return 0x06492eeau;
-        }
-        case 11: {
-            return 0x09d1921cu;
-        }
-        case 12: {
-            return 0xfe1deb1cu;
-        }
-        case 13: {
-            return 0xb129a73eu;
-        }
-        case 14: {
-            return 0xe88235f5u;
-        }
-        case 15: {
-            return 0x2ebb4484u;
-        }
-        case 16: {
-            return 0xe99c7026u;
-        }
-        case 17: {
-            return 0xb45f7e41u;
-        }
-        case 18: {
-            return 0x3991d639u;
-        }
-        case 19: {
-            return 0x835339f4u;
-        }
-        case 20: {
-            return 0x9c845f8bu;
-        }
-        case 21: {
-            return 0xbdf9283bu;
-        }
-        case 22: {
-            return 0x1ff897ffu;
-        }
-        case 23: {
-            return 0xde05980fu;
-        }
-        case 24: {
-            return 0xef2f118bu;
-        }
-        case 25: {
-            return 0x5a0a6d1fu;
-        }
-        case 26: {
-            return 0x6d367ecfu;
-        }
-        case 27: {
-            return 0x27cb09b7u;
-        }
-        case 28: {
-            return 0x4f463f66u;
-        }
-        case 29: {
-            return 0x9e5fea2du;
-        }
-        case 30: {
-            return 0x7527bac7u;
-        }
-        case 31: {
-            return 0xebe5f17bu;
-        }
-        case 32: {
-            return 0x3d0739f7u;
-        }
-        case 33: {
-            return 0x8a5292eau;
-        }
-        case 34: {
-            return 0x6bfb5fb1u;
-        }
-        case 35: {
-            return 0x1f8d5d08u;
-        }
-        case 36: {
-            return 0x56033046u;
-        }
-        case 37: {
-            return 0xfc7b6babu;
-        }
-        case 38: {
-            return 0xf0cfbc20u;
-        }
-        case 39: {
-            return 0x9af4361du;
-        }
-        default: {
-            return 0u;
-        }
-    }
-}
-
-/// 32 bits of 2/π from bit `shift` of word i on.
-fn two_over_pi_from(i: i32, shift: u32) -> u32 {
-    return (two_over_pi(i) << shift) | ((two_over_pi(i + 1) >> 1u) >> (31u - shift));
-}
-
 /// m 2^e · 2/π modulo 4 in units of 2^-126, truncated, as four words: the bits of 2/π that make multiples of 4 are left
 /// out, and those below the last word (Payne and Hanek, "Radian reduction for trigonometric functions", 1983).
 fn turns_of(m: u32, e: i32) -> vec4u {
+    // 32 bits each, from the binary point on; none before it
+    var bits = array<u32, 46>(
+        0xa2f9836eu, 0x4e441529u, 0xfc2757d1u, 0xf534ddc0u, 0xdb629599u, 0x3c439041u, 0xfe5163abu, 0xdebbc561u,
+        0xb7246e3au, 0x424dd2e0u, 0x06492eeau, 0x09d1921cu, 0xfe1deb1cu, 0xb129a73eu, 0xe88235f5u, 0x2ebb4484u,
+        0xe99c7026u, 0xb45f7e41u, 0x3991d639u, 0x835339f4u, 0x9c845f8bu, 0xbdf9283bu, 0x1ff897ffu, 0xde05980fu,
+        0xef2f118bu, 0x5a0a6d1fu, 0x6d367ecfu, 0x27cb09b7u, 0x4f463f66u, 0x9e5fea2du, 0x7527bac7u, 0xebe5f17bu,
+        0x3d0739f7u, 0x8a5292eau, 0x6bfb5fb1u, 0x1f8d5d08u, 0x56033046u, 0xfc7b6babu, 0xf0cfbc20u, 0x9af4361du,
+        0u, 0u, 0u, 0u, 0u, 0u,
+    );
     // the bit of weight 2^(1 - e) is the first that matters, in units of 2: bit e - 1 after the point
     let i = (e - 2) >> 5u;
     let shift = u32(e - 2) & 31u;
-    let w0 = two_over_pi_from(i, shift);
-    let w1 = two_over_pi_from(i + 1, shift);
-    let w2 = two_over_pi_from(i + 2, shift);
-    let w3 = two_over_pi_from(i + 3, shift);
-    let w4 = two_over_pi_from(i + 4, shift);
-    let low = vec4u(m * w0, m * w1, m * w2, m * w3);
-    let high = vec4u(multiply_high(m, w1), multiply_high(m, w2), multiply_high(m, w3), multiply_high(m, w4));
+    var w = array<u32, 5>();
+    var here = select(0u, bits[clamp(i, 0, 45)], i >= 0);
+    for (var k = 0; k < 5; k++) {
+        let at = i + k + 1;
+        let next = select(0u, bits[clamp(at, 0, 45)], at >= 0);
+        w[k] = (here << shift) | ((next >> 1u) >> (31u - shift));
+        here = next;
+    }
+    let low = vec4u(m * w[0], m * w[1], m * w[2], m * w[3]);
+    let high = vec4u(multiply_high(m, w[1]), multiply_high(m, w[2]), multiply_high(m, w[3]), multiply_high(m, w[4]));
     return add_words(low, high);
 }
 
