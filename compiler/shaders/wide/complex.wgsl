@@ -376,8 +376,10 @@ fn complex_sqrt(z: Complex) -> Complex {
     let a = scale(real_abs(z.re), -2 * half);
     let b = scale(real_abs(z.im), -2 * half);
     let r = real_sqrt(real_add(real_square(a), real_square(b)));
-    let t = scale(real_sqrt(mul32(real_add(a, r), 0.5)), half);
-    let u = real_div(mul32(real_abs(z.im), 0.5), t); // not of the scaled one, which may have underflowed
+    let root = real_sqrt(mul32(real_add(a, r), 0.5));
+    let t = scale(root, half);
+    // the numerator 2^79 times too large, so that a small component keeps its digits
+    let u = scale(real_div(scale(real_abs(z.im), 79 - 2 * half), root), half - 80);
     let left = sign_is_set(z.re);
     return Complex(choose(left, u, t), with_sign(choose(left, t, u), z.im));
 }
