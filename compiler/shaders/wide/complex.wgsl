@@ -243,8 +243,9 @@ fn complex_div_special(z: Complex, w: Complex) -> Complex {
     );
 }
 
-/// 1 / z = z̄ / |z|², of z scaled by a power of two: below the real axis for +0, which the quotient 1 / z loses.
-/// Error: 4 u each component.
+/// 1 / z of z scaled by a power of two: with r = y/x, |r| ≤ 1, it is (1 - i r) / (x + y r), in which nothing cancels (R. L.
+/// Smith, CACM 5, 1962). Below the real axis for +0, which the quotient 1 / z loses.
+/// Error: 3 u each component.
 fn complex_inverse(z: Complex) -> Complex {
     if complex_is_infinite(z) {
         return Complex(signed_zero(z.re), signed_zero(real_neg(z.im)));
@@ -253,10 +254,15 @@ fn complex_inverse(z: Complex) -> Complex {
         return Complex(make_infinity(z.re), make_nan(z.im));
     }
     let e = complex_exponent(z);
-    let norm = real_add(real_square(scale(z.re, -e)), real_square(scale(z.im, -e)));
-    // the numerator 2^40 times too large, so that a small component keeps its digits
-    let a = complex_scale(z, 40 - e);
-    return complex_scale(Complex(real_div(a.re, norm), real_div(real_neg(a.im), norm)), -40 - e);
+    let steep = real_less(real_abs(z.re), real_abs(z.im));
+    let large = scale(choose(steep, z.im, z.re), -e);
+    let small = choose(steep, z.re, z.im);
+    // 2^40 times too large, so that a small component keeps its digits
+    let r = real_div(scale(small, 40 - e), large);
+    let d = real_add(large, real_mul(scale(small, -e), scale(r, -40)));
+    let along = scale(real_div(num(1.0), d), -e);
+    let across = scale(real_div(r, d), -40 - e);
+    return Complex(choose(steep, across, along), real_neg(choose(steep, along, across)));
 }
 
 /// |z| without spurious overflow.
@@ -395,8 +401,7 @@ fn complex_expm1(z: Complex) -> Complex {
         return Complex(choose(known, re, make_nan(z.re)), choose(flat, z.im, im));
     }
     let wave = real_sincos(z.im);
-    let below = real_less(z.re, num(-50.0));
-    let s = split_exponent(choose(below, num(-50.0), clamped(z.re, EXP_END)));
+    let s = split_exponent(clamped(z.re, EXP_END));
     let v = expm1_polynomial(s.rest);
     if s.count > 60 {
         let e = add32(v, 1.0);
@@ -414,8 +419,7 @@ fn complex_expm1(z: Complex) -> Complex {
         add32(real_neg(wave.second), 1.0),
     );
     let re = sum_of_products(growth, wave.second, real_neg(down), num(1.0), num(0.0));
-    let e = scale(add32(v, 1.0), s.count);
-    let im = real_mul(choose(below, num(0.0), e), wave.first);
+    let im = scale(real_mul(add32(v, 1.0), wave.first), s.count);
     return Complex(choose(flat, growth, choose(is_zero(z.re), real_neg(down), re)), choose(flat, z.im, im));
 }
 

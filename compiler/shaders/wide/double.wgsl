@@ -371,13 +371,33 @@ fn log_correction(s: Long) -> Long {
     return long_times(long_times(s, z), Long(t.hi, t.lo + 3.700743415417188e-17lf));
 }
 
-/// h · 2^e radians for the fraction h = high + low/2^32 of a quarter turn, high with its top bit set: the first 21
-/// bits of π/2 times 32 are exact.
-fn radians_of_turns(high: u32, low: u32, e: i32) -> real {
+/// sin (r + low) for |r| ≤ π/4, low below its last place.
+fn sin_near(r: real, low: real) -> real {
+    let z = r * r;
+    return r + (r * z * sin_tail(z) + low * (1.0lf - 0.5lf * z));
+}
+
+/// cos (r + low) for |r| ≤ π/4, low below its last place.
+fn cos_near(r: real, low: real) -> real {
+    let z = r * r;
+    let w = quick_two_sum(1.0lf, -0.5lf * z, hidden_zero(z));
+    return w.hi + (w.lo + (z * z * cos_tail(z) - r * low));
+}
+
+/// a + b for a tiny b, and what that loses.
+fn rest_with_low(a: real, b: real) -> RealPair {
+    let r = quick_two_sum(a, b, hidden_zero(a));
+    return RealPair(r.hi, r.lo);
+}
+
+/// h · 2^e radians for the fraction h = high + low/2^32 of a quarter turn, high with its top bit set, and what that
+/// loses: the first 21 bits of π/2 times 32 are exact.
+fn radians_of_turns(high: u32, low: u32, e: i32) -> RealPair {
     let h = f64(high);
     let l = f64(low) * 2.3283064365386963e-10lf;
-    let r = opaque(h * 1.570796012878418lf, hidden_zero(h));
-    return scale(r + (l * 1.5707963267948966lf + h * 3.139164786504813e-07lf), e);
+    let zero = hidden_zero(h);
+    let r = quick_two_sum(opaque(h * 1.570796012878418lf, zero), l * 1.5707963267948966lf + h * 3.139164786504813e-07lf, zero);
+    return RealPair(scale(r.hi, e), scale(r.lo, e));
 }
 
 /// Beyond this magnitude e^x is 0 or infinite.

@@ -468,9 +468,27 @@ fn log_correction(s: Long) -> Long {
     return Long(real_mul(real_mul(s.hi, z), t), vec2f(0.0));
 }
 
-/// h · 2^e radians for the fraction h = high + low/2^32 of a quarter turn, high with its top bit set.
-fn radians_of_turns(high: u32, low: u32, e: i32) -> real {
-    return real_mul(real_from_integer(high, low, e - 32), lit(1.5707964, -4.371139e-08, 0.0));
+/// sin r for |r| ≤ π/4; r has no low part.
+fn sin_near(r: real, low: real) -> real {
+    let z = real_square(r);
+    return real_add(r, real_mul(real_mul(r, z), sin_tail(z)));
+}
+
+/// cos r for |r| ≤ π/4; r has no low part.
+fn cos_near(r: real, low: real) -> real {
+    let z = real_square(r);
+    return add32(real_sub(real_mul(real_square(z), cos_tail(z)), scale(z, -1)), 1.0);
+}
+
+/// a + b for a tiny b, and what that loses: nothing that matters here.
+fn rest_with_low(a: real, b: real) -> RealPair {
+    return RealPair(real_add(a, b), num(0.0));
+}
+
+/// h · 2^e radians for the fraction h = high + low/2^32 of a quarter turn, high with its top bit set, and what that
+/// loses.
+fn radians_of_turns(high: u32, low: u32, e: i32) -> RealPair {
+    return RealPair(real_mul(real_from_integer(high, low, e - 32), lit(1.5707964, -4.371139e-08, 0.0)), num(0.0));
 }
 
 /// Beyond this magnitude e^x is 0 or infinite.

@@ -1,8 +1,9 @@
 // sin, cos, tan over the whole range of both wide formats, and their inverses.
 
-/// An angle a ≥ 0 as count · π/2 + rest, |rest| ≤ π/4 about.
+/// An angle a ≥ 0 as count · π/2 + rest + low, |rest| ≤ π/4 about.
 struct QuarterTurns {
     rest: real,
+    low: real,
     count: u32,
 }
 
@@ -11,7 +12,7 @@ struct QuarterTurns {
 fn quarter_turns(a: real) -> QuarterTurns {
     let size = real_to_f32(a);
     if size < 0.78539 {
-        return QuarterTurns(a, 0u);
+        return QuarterTurns(a, num(0.0), 0u);
     }
     if size > 1570.0 {
         return reduce_large(a);
@@ -22,7 +23,8 @@ fn quarter_turns(a: real) -> QuarterTurns {
     let t = rounded(real_sub(a, mul32(num(1.5707964), n)));
     let u = rounded(real_sub(t, mul32(num(-4.371139e-08), n)));
     let v = rounded(real_sub(u, mul32(num(-1.7151245e-15), n)));
-    return QuarterTurns(real_sub(v, mul32(lit(1.0562999e-23, 8.4784276e-32, 9.41521e-40), n)), u32(n));
+    let r = rest_with_low(v, real_neg(mul32(lit(1.0562999e-23, 8.4784276e-32, 9.41521e-40), n)));
+    return QuarterTurns(r.first, r.second, u32(n));
 }
 
 /// The upper 32 bits of a b.
@@ -84,7 +86,7 @@ fn negate_words(a: vec4u) -> vec4u {
 /// Reduction of every finite a: the turns of its pieces, modulo 4, in fixed point.
 fn reduce_large(a: real) -> QuarterTurns {
     if !is_finite(a) {
-        return QuarterTurns(make_nan(a), 0u);
+        return QuarterTurns(make_nan(a), num(0.0), 0u);
     }
     let p = pieces_of(a);
     let low = turns_of(p.low, p.low_exponent);
@@ -110,19 +112,8 @@ fn reduce_large(a: real) -> QuarterTurns {
     let down = 31u - lead;
     let high = (t.x << lead) | ((t.y >> 1u) >> down);
     let rest = (t.y << lead) | ((t.z >> 1u) >> down);
-    return QuarterTurns(flip_if(radians_of_turns(high, rest, e - i32(lead)), negative), count);
-}
-
-/// sin r for |r| ≤ π/4.
-fn sin_near(r: real) -> real {
-    let z = real_square(r);
-    return real_add(r, real_mul(real_mul(r, z), sin_tail(z)));
-}
-
-/// cos r for |r| ≤ π/4.
-fn cos_near(r: real) -> real {
-    let z = real_square(r);
-    return add32(real_sub(real_mul(real_square(z), cos_tail(z)), scale(z, -1)), 1.0);
+    let r = radians_of_turns(high, rest, e - i32(lead));
+    return QuarterTurns(flip_if(r.first, negative), flip_if(r.second, negative), count);
 }
 
 /// (sin x, cos x) with one reduction; sin(-0) = -0, NaN at ±∞.
@@ -131,8 +122,8 @@ fn real_sincos(x: real) -> RealPair {
         return RealPair(make_nan(x), make_nan(x));
     }
     let turns = quarter_turns(real_abs(x));
-    let s = sin_near(turns.rest);
-    let c = cos_near(turns.rest);
+    let s = sin_near(turns.rest, turns.low);
+    let c = cos_near(turns.rest, turns.low);
     let odd = (turns.count & 1u) == 1u;
     let half_turn = (turns.count & 2u) != 0u;
     return RealPair(
@@ -157,8 +148,8 @@ fn real_tan(x: real) -> real {
         return make_nan(x);
     }
     let turns = quarter_turns(real_abs(x));
-    let s = sin_near(turns.rest);
-    let c = cos_near(turns.rest);
+    let s = sin_near(turns.rest, turns.low);
+    let c = cos_near(turns.rest, turns.low);
     if (turns.count & 1u) == 1u {
         return flip_if(real_div(c, s), !sign_is_set(x));
     }
