@@ -52,25 +52,34 @@ fn sinhcosh_pi(y: real) -> RealPair {
     );
 }
 
-/// sin πz for |Im z| ≤ 12, its real part reduced exactly.
-fn complex_sin_pi(z: Complex) -> Complex {
-    let wave = sincos_pi(z.re);
-    let h = sinhcosh_pi(z.im);
-    return Complex(real_mul(wave.first, h.second), real_mul(wave.second, h.first));
+/// sin πx, cos πx, sinh πy, cosh πy of z = x + i y, |y| ≤ 12, the turns of x reduced exactly.
+struct PiWaves {
+    circular: RealPair,
+    hyperbolic: RealPair,
 }
 
-/// π cot πz = π (sin πx cos πx - i sinh πy cosh πy) / (sin² πx + sinh² πy) for |y| ≤ 12: no part cancels.
-fn complex_pi_cot_pi(z: Complex) -> Complex {
-    let wave = sincos_pi(z.re);
-    let h = sinhcosh_pi(z.im);
-    let norm = real_add(real_square(wave.first), real_square(h.first));
+fn waves_of_pi(z: Complex) -> PiWaves {
+    return PiWaves(sincos_pi(z.re), sinhcosh_pi(z.im));
+}
+
+/// sin πz.
+fn complex_sin_pi(w: PiWaves) -> Complex {
+    return Complex(
+        real_mul(w.circular.first, w.hyperbolic.second),
+        real_mul(w.circular.second, w.hyperbolic.first),
+    );
+}
+
+/// π cot πz = π (sin πx cos πx - i sinh πy cosh πy) / (sin² πx + sinh² πy): no part cancels.
+fn complex_pi_cot_pi(z: Complex, w: PiWaves) -> Complex {
+    let norm = real_add(real_square(w.circular.first), real_square(w.hyperbolic.first));
     if is_below(norm, 1e-20) { // beside a pole, where the squares may underflow: 1/z
         return complex_inverse(Complex(real_sub(z.re, real_floor(add32(z.re, 0.5))), z.im));
     }
     let ratio = real_div(real_pi(), norm);
     return Complex(
-        real_mul(real_mul(wave.first, wave.second), ratio),
-        real_neg(real_mul(real_mul(h.first, h.second), ratio)),
+        real_mul(real_mul(w.circular.first, w.circular.second), ratio),
+        real_neg(real_mul(real_mul(w.hyperbolic.first, w.hyperbolic.second), ratio)),
     );
 }
 
@@ -135,7 +144,7 @@ fn complex_gamma(z: Complex) -> Complex {
     let ratio = gamma_of_right(start, down);
     var r = ratio.n;
     if reflected { // Γ(z) = -π / (z sin πz Γ(-z))
-        let below = plain_product(plain_product(z, complex_sin_pi(z)), ratio.n);
+        let below = plain_product(plain_product(z, complex_sin_pi(waves_of_pi(z))), ratio.n);
         r = complex_mul_real(ratio.d, real_neg(real_pi()));
         r = complex_scale(plain_product(r, complex_inverse(below)), -down);
     } else if !is_gamma_far(z) {
@@ -156,7 +165,7 @@ fn complex_digamma(z: Complex) -> Complex {
     let start = complex_choose(left, complex_neg(z), z);
     var sum = complex_of_real(num(0.0));
     if left { // ψ(z) = ψ(-z) - 1/z - π cot πz
-        sum = complex_add(complex_inverse(z), complex_pi_cot_pi(z));
+        sum = complex_add(complex_inverse(z), complex_pi_cot_pi(z, waves_of_pi(z)));
     }
     let steps = steps_to_far(start);
     for (var k = 0; k < steps; k++) {
@@ -172,14 +181,19 @@ fn complex_digamma(z: Complex) -> Complex {
 
 /// ψ′(z). Error: 40 u of the largest term, |1/z²| or |π²/sin² πz|.
 fn complex_trigamma(z: Complex) -> Complex {
-    if is_zero(z.im) {
-        return Complex(real_trigamma(z.re), real_neg(z.im));
+    let flat = is_zero(z.im);
+    if flat && is_gamma_pole(z.re) {
+        return Complex(make_infinity(num(1.0)), real_neg(z.im));
     }
     if !complex_is_finite(z) {
-        if complex_has_nan(z) {
-            return complex_nan(z.re);
+        if complex_has_nan(z) || flat && sign_is_set(z.re) {
+            return Complex(make_nan(z.re), choose(flat, real_neg(z.im), make_nan(z.im)));
         }
-        return complex_of_real(num(0.0));
+        return Complex(num(0.0), choose(flat, real_neg(z.im), num(0.0)));
+    }
+    if is_below(real_abs(z.re), 1e-10) && is_below(real_abs(z.im), 1e-10) {
+        let pole = complex_square(complex_inverse(z));
+        return Complex(add32(pole.re, 1.644934), choose(flat, real_neg(z.im), pole.im));
     }
     let left = sign_is_set(z.re) && !is_gamma_far(z);
     let start = complex_choose(left, complex_neg(z), z);
@@ -195,8 +209,8 @@ fn complex_trigamma(z: Complex) -> Complex {
         far = complex_add(far, complex_square(complex_inverse(complex_step(start, k))));
     }
     if left {
-        let ratio = complex_mul_real(complex_inverse(complex_sin_pi(z)), real_pi());
-        return complex_sub(complex_square(ratio), far);
+        let ratio = complex_mul_real(complex_inverse(complex_sin_pi(waves_of_pi(z))), real_pi());
+        far = complex_sub(complex_square(ratio), far);
     }
-    return far;
+    return Complex(far.re, choose(flat, real_neg(z.im), far.im));
 }

@@ -8,7 +8,8 @@ fn sincos_pi(x: real) -> RealPair {
     let f = real_sub(a, n); // exact, in [-1/2, 1/2]
     let g = real_abs(f);
     let outer = is_above(g, 0.25);
-    let wave = real_sincos(real_mul(choose(outer, real_sub(num(0.5), g), g), real_pi()));
+    let angle = real_mul(choose(outer, real_sub(num(0.5), g), g), real_pi()); // up to π/4: nothing to reduce
+    let wave = RealPair(sin_near(angle, num(0.0)), cos_near(angle, num(0.0)));
     let half = mul32(n, 0.5);
     let odd = real_not_equal(half, real_floor(half));
     return RealPair(

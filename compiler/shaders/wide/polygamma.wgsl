@@ -67,20 +67,23 @@ fn real_zeta(n: i32, x: real, first: i32) -> real {
     return sum;
 }
 
-/// ψ⁽ⁿ⁾(x), 2 ≤ n ≤ 5: at the poles ∞ for odd n, NaN for even n but at ±0. Absolute accuracy left of 0 for even n.
-fn real_polygamma(x: real, n: i32) -> real {
-    let odd = (n & 1) == 1;
+/// ψ⁽ⁿ⁾ at its poles and where x is not finite.
+fn polygamma_at_end(x: real, odd: bool) -> real {
     if is_nan(x) || is_infinite(x) && sign_is_set(x) {
         return make_nan(x);
-    }
-    if is_zero(x) {
-        return choose(odd, make_infinity(num(1.0)), make_infinity(real_neg(x)));
     }
     if is_infinite(x) {
         return flip_if(num(0.0), !odd);
     }
-    if is_gamma_pole(x) {
-        return choose(odd, make_infinity(num(1.0)), make_nan(x));
+    let even = choose(is_zero(x), make_infinity(real_neg(x)), make_nan(x));
+    return choose(odd, make_infinity(num(1.0)), even);
+}
+
+/// ψ⁽ⁿ⁾(x), 2 ≤ n ≤ 5: at the poles ∞ for odd n, NaN for even n but at ±0. Absolute accuracy left of 0 for even n.
+fn real_polygamma(x: real, n: i32) -> real {
+    let odd = (n & 1) == 1;
+    if is_zero(x) || !is_finite(x) || is_gamma_pole(x) {
+        return polygamma_at_end(x, odd);
     }
     let size = polygamma_scale(n);
     if !sign_is_set(x) {
@@ -135,8 +138,10 @@ fn complex_zeta(n: i32, z: Complex, first: i32) -> Complex {
 /// ψ⁽ⁿ⁾(z), 2 ≤ n ≤ 5. Error: 100 u of the largest term.
 fn complex_polygamma(z: Complex, n: i32) -> Complex {
     let odd = (n & 1) == 1;
-    if is_zero(z.im) {
-        return Complex(real_polygamma(z.re, n), flip_if(z.im, odd));
+    let flat = is_zero(z.im);
+    let im_of_flat = flip_if(z.im, odd);
+    if flat && (is_zero(z.re) || !is_finite(z.re) || is_gamma_pole(z.re)) {
+        return Complex(polygamma_at_end(z.re, odd), im_of_flat);
     }
     if !complex_is_finite(z) {
         if complex_has_nan(z) {
@@ -144,13 +149,16 @@ fn complex_polygamma(z: Complex, n: i32) -> Complex {
         }
         return complex_of_real(num(0.0));
     }
-    let size = num(polygamma_scale(n));
-    if !sign_is_set(z.re) || is_zeta_far(z) {
-        let far = complex_mul_real(complex_zeta(n, z, 0), size);
-        return complex_choose(odd, far, complex_neg(far));
+    let left = sign_is_set(z.re) && !is_zeta_far(z);
+    let zeta = complex_zeta(n, complex_choose(left, complex_neg(z), z), select(0, 1, left));
+    let regular = complex_mul_real(zeta, num(polygamma_scale(n)));
+    if !left {
+        let far = complex_choose(odd, regular, complex_neg(regular));
+        return Complex(far.re, choose(flat, im_of_flat, far.im));
     }
-    let square = complex_square(complex_mul_real(complex_inverse(complex_sin_pi(z)), real_pi()));
-    let cot = complex_pi_cot_pi(z);
+    let waves = waves_of_pi(z);
+    let square = complex_square(complex_mul_real(complex_inverse(complex_sin_pi(waves)), real_pi()));
+    let cot = complex_pi_cot_pi(z, waves);
     let cc = complex_square(cot);
     var reflected = plain_product(square, cc);
     if n == 2 {
@@ -164,6 +172,6 @@ fn complex_polygamma(z: Complex, n: i32) -> Complex {
         let outer = complex_scale(complex_add(complex_square(square), complex_square(cc)), 4);
         reflected = plain_product(square, complex_add(outer, complex_mul_real(reflected, num(88.0))));
     }
-    let regular = complex_mul_real(complex_zeta(n, complex_neg(z), 1), size);
-    return complex_sub(complex_choose(odd, reflected, complex_neg(reflected)), regular);
+    let r = complex_sub(complex_choose(odd, reflected, complex_neg(reflected)), regular);
+    return Complex(r.re, choose(flat, im_of_flat, r.im));
 }
