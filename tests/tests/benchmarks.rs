@@ -5,6 +5,7 @@ use pullback_tests::accuracy::evaluators::suite_gpu;
 use pullback_tests::benchmarks::data::{Benchmark, COLLECTIONS, collection};
 use pullback_tests::benchmarks::measure::{Machine, Row, formula, measure, results};
 use pullback_tests::benchmarks::report::{NOISE, summary, ways, worsened};
+use pullback_tests::benchmarks::store::Store;
 
 fn all() -> Vec<Benchmark> {
     COLLECTIONS
@@ -83,7 +84,7 @@ fn rewrites_halve_what_cancellation_loses_and_make_nothing_worse() {
     let ways = ways(&[Precision::Accurate]);
     let rows: Vec<Row> = subset(&all)
         .into_iter()
-        .map(|b| measure(b, &machine, &ways).unwrap_or_else(|e| panic!("{e}")))
+        .map(|b| measure(b, &machine, &ways, &Store::default()).unwrap_or_else(|e| panic!("{e}")))
         .collect();
     let median = |rewrites| {
         let cancelling = rows.iter().filter(|r| r.benchmark.cancels());
