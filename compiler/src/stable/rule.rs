@@ -62,7 +62,7 @@ rules! {
         "discrete product rule";
     Squares "squares", false, "real and complex":
         "a² - b² = (a - b)·(a + b)",
-        "reals everywhere, in a sum of two terms; |a| and |b| are taken, so that an exact zero is +0 as written. Complex a and constant b: only the real part is taken from the product, the imaginary part from a², where it does not cancel and its sign chooses the side of a cut. a² may overflow where the product does not. Not before differentiation: (2a)' is better than the derivative of the product",
+        "reals everywhere, in a sum of two terms, and of a constant b where 2|a² - b²| < a², since elsewhere the product rounds more; |a| and |b| are taken, so that an exact zero is +0 as written. Complex a and constant b: only the real part is taken from the product, the imaginary part from a², where it does not cancel and its sign chooses the side of a cut. a² may overflow where the product does not. Not before differentiation: (2a)' is better than the derivative of the product",
         "D. Goldberg, What every computer scientist should know about floating-point arithmetic, ACM Comput. Surv. 23 (1991), section 1.4";
     Cubes "cubes", false, "real and complex":
         "a³ - b³ = (a - b)·(a² + a·b + b²), and so on for aⁿ - bⁿ, n = 5, 7",

@@ -3,10 +3,10 @@
 use smallvec::SmallVec;
 
 use super::Phase;
-use super::guard::is_real;
+use super::guard::{choose, is_real, less, scaled};
 use super::pass::{Pass, only_atom};
 use super::polynomial::{
-    Expand, Monomial, Polynomial, build, build_monomial, build_term, exact_product,
+    Expand, Monomial, Polynomial, build, build_monomial, build_term, constant, exact_product,
     monomial_product,
 };
 use super::rule::Rule;
@@ -227,10 +227,27 @@ impl Pass {
             let product = self.squares_of_parts(g, a, u, v)?;
             return self.by(Rule::Squares, product);
         }
-        let (u, v) = (g.apply(Prim::Abs, &[u]), g.apply(Prim::Abs, &[v]));
-        let (difference, sum) = (g.sub(u, v), g.add(u, v));
+        let (left, right) = (g.apply(Prim::Abs, &[u]), g.apply(Prim::Abs, &[v]));
+        let (difference, sum) = (g.sub(left, right), g.add(left, right));
         let product = g.mul(difference, sum);
-        self.by(Rule::Squares, product)
+        let new = match constant(g, v) {
+            Some(_) => Self::where_it_cancels(g, a, v, product)?,
+            None => product,
+        };
+        self.by(Rule::Squares, new)
+    }
+
+    /// The product for a² - v², where v² is a constant, exact and of like size; else as written. Of u the unit of rounding,
+    /// what is written loses u a² in its square and u |a² - v²| in the difference, the product 3 u |a² - v²|: less where
+    /// 2 |a² - v²| < a².
+    fn where_it_cancels(g: &mut Graph, square: &Monomial, v: Id, product: Id) -> Option<Id> {
+        let square = build_monomial(g, square)?;
+        let other = g.apply(Prim::PowInt(2), &[v]);
+        let written = g.sub(square, other);
+        let size = g.apply(Prim::Abs, &[written]);
+        let double = scaled(g, 2.0, size);
+        let condition = less(g, double, square);
+        Some(choose(g, condition, product, written))
     }
 
     /// z² - v² for a constant v: the real part of (z - v)(z + v), and the imaginary part of z², which does not cancel
