@@ -86,6 +86,8 @@ fn rewrites_halve_what_cancellation_loses_and_make_nothing_worse() {
         .into_iter()
         .map(|b| measure(b, &machine, &ways, &Store::default()).unwrap_or_else(|e| panic!("{e}")))
         .collect();
+    let refused: Vec<&String> = rows.iter().flat_map(|r| &r.refused).collect();
+    assert!(refused.is_empty(), "{refused:?}");
     let median = |rewrites| {
         let cancelling = rows.iter().filter(|r| r.benchmark.cancels());
         let lost = cancelling.filter_map(|r| Some(r.loss(Precision::Accurate, rewrites)?.single));
@@ -95,7 +97,7 @@ fn rewrites_halve_what_cancellation_loses_and_make_nothing_worse() {
     println!("median of cancelling expressions: {before:.2} bits, {after:.2} with rewrites");
     assert!(before > 4.0, "{before}");
     assert!(after <= before / 2.0, "{before} to {after}");
-    let worse: Vec<String> = worsened(&rows, Precision::Accurate)
+    let worse: Vec<String> = worsened(&rows, Precision::Accurate, NOISE)
         .iter()
         .map(|(row, before, after)| format!("{}: {before:.2} to {after:.2}", row.benchmark.id))
         .collect();

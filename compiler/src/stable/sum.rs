@@ -231,23 +231,23 @@ impl Pass {
         let (difference, sum) = (g.sub(left, right), g.add(left, right));
         let product = g.mul(difference, sum);
         let new = match constant(g, v) {
-            Some(_) => Self::where_it_cancels(g, a, v, product)?,
-            None => product,
+            // a numerator stays a product, of which one factor is divided
+            Some(_) if depth == MAX_DEPTH => Self::where_it_cancels(g, u, v, product),
+            _ => product,
         };
         self.by(Rule::Squares, new)
     }
 
-    /// The product for a² - v², where v² is a constant, exact and of like size; else as written. Of u the unit of rounding,
-    /// what is written loses u a² in its square and u |a² - v²| in the difference, the product 3 u |a² - v²|: less where
-    /// 2 |a² - v²| < a².
-    fn where_it_cancels(g: &mut Graph, square: &Monomial, v: Id, product: Id) -> Option<Id> {
-        let square = build_monomial(g, square)?;
-        let other = g.apply(Prim::PowInt(2), &[v]);
+    /// The product for u² - v² where the constant v² is of like size, else as written. Of e the unit of rounding, what is
+    /// written loses e u² in its square and e |u² - v²| in the difference, the product 3 e |u² - v²|: less where
+    /// 2 |u² - v²| < u².
+    fn where_it_cancels(g: &mut Graph, u: Id, v: Id, product: Id) -> Id {
+        let [square, other] = [u, v].map(|x| g.apply(Prim::PowInt(2), &[x]));
         let written = g.sub(square, other);
         let size = g.apply(Prim::Abs, &[written]);
         let double = scaled(g, 2.0, size);
         let condition = less(g, double, square);
-        Some(choose(g, condition, product, written))
+        choose(g, condition, product, written)
     }
 
     /// z² - v² for a constant v: the real part of (z - v)(z + v), and the imaginary part of z², which does not cancel

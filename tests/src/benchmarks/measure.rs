@@ -79,6 +79,8 @@ pub struct Row<'b> {
     pub losses: [Option<Loss>; 8],
     /// How many rewrites took place.
     pub rewrites: usize,
+    /// Ways that the device refused, and why.
+    pub refused: Vec<String>,
 }
 
 impl Row<'_> {
@@ -100,10 +102,11 @@ pub fn formula(benchmark: &Benchmark) -> Result<Formula, String> {
     })
 }
 
-/// Measures some ways on a benchmark. What the store knows is not computed again.
+/// Measures some ways on a benchmark. What the store knows is not computed again. What the device refuses, by a time limit
+/// say, is noted, and has no loss.
 ///
 /// # Errors
-/// It does not compile, or the device refuses it; in words.
+/// It does not compile; in words.
 pub fn measure<'b>(
     benchmark: &'b Benchmark,
     machine: &Machine,
@@ -113,6 +116,7 @@ pub fn measure<'b>(
     let written = formula(benchmark)?;
     let rewrites = rewriting::count(&written);
     let mut losses = [None; 8];
+    let mut refused = Vec::new();
     for &way in ways {
         // what nothing is rewritten in need not be computed again
         let other = Way::new(way.precision, !way.rewrites);
@@ -121,8 +125,10 @@ pub fn measure<'b>(
             continue;
         }
         let formula = rewriting::with_rewrites(&written, way.rewrites);
-        losses[way.place()] = lost(&formula, machine, way.precision, &benchmark.points, store)
-            .map_err(|e| format!("{} ({:?}): {e}", benchmark.id, way))?;
+        match lost(&formula, machine, way.precision, &benchmark.points, store) {
+            Ok(loss) => losses[way.place()] = loss,
+            Err(e) => refused.push(format!("{} ({way:?}): {e}", benchmark.id)),
+        }
         if rewrites == 0 {
             losses[other.place()] = losses[way.place()];
         }
@@ -131,6 +137,7 @@ pub fn measure<'b>(
         benchmark,
         losses,
         rewrites,
+        refused,
     })
 }
 

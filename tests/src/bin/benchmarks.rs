@@ -103,7 +103,10 @@ fn run(options: &Options) -> Result<(), String> {
     let mut refused = Vec::new();
     for row in measure_all(&asked, &machines, &ways, &store, &progress) {
         match row {
-            Ok(row) => rows.push(row),
+            Ok(row) => {
+                refused.extend(row.refused.iter().cloned());
+                rows.push(row);
+            }
             Err(problem) => refused.push(problem),
         }
     }
@@ -135,7 +138,7 @@ fn run(options: &Options) -> Result<(), String> {
     }
     match refused.len() {
         0 => Ok(()),
-        n => Err(format!("{n} benchmarks were refused")),
+        n => Err(format!("{n} measurements were refused")),
     }
 }
 
