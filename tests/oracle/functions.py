@@ -73,6 +73,8 @@ def line(*cells):
 # Real functions: name -> (function, where it is defined, values at inf, -inf).
 everywhere = lambda x: True
 sinc = lambda x: mp.sin(x) / x if x else mp.mpf(1)
+sinhc = lambda x: mp.sinh(x) / x if x else mp.mpf(1)
+exprel = lambda x: mp.expm1(x) / x if x else mp.mpf(1)
 cbrt = lambda x: mp.sign(x) * mp.cbrt(abs(x))
 pole = lambda x: x < 0 and x == mp.floor(x)
 REAL = {
@@ -101,6 +103,8 @@ REAL = {
     "gamma": (mp.gamma, lambda x: not pole(x), INF, NAN),
     "digamma": (mp.digamma, lambda x: not pole(x), INF, NAN),
     "sinc": (sinc, everywhere, 0.0, 0.0),
+    "sinhc": (sinhc, everywhere, INF, INF),
+    "exprel": (exprel, everywhere, INF, 0.0),
     "lgamma": (lambda x: mp.log(abs(mp.gamma(x))), lambda x: not pole(x), INF, INF),
     "trigamma": (lambda x: mp.polygamma(1, x), lambda x: not pole(x), 0.0, NAN),
     "sec": (lambda x: 1 / mp.cos(x), everywhere, NAN, NAN),
@@ -136,6 +140,7 @@ EXTRA = {
     "trigamma": [-0.5, -1.0, -2.0, -1 - 2.0**-23, 0.1, 5.0, 35.0, -3.5],
     "cube": [-2.0, 7e12, -7e12], "pow7": [-2.0, 1.5, 3e5], "inverse": [3.0, -7.0], "inverse_square": [3.0, -7.0],
     "digamma": [-0.5, -1.0, -2.0, -1 - 2.0**-23, f32(1.4616321449683622), up(1.4616321), 5.0], "sinc": [PI, f32(4.4934095), 2 * PI],
+    "sinhc": [0.99, 1.01, 19.9, 20.1, 88.72283, 89.5, 92.0, 94.5], "exprel": [-0.99, 0.99, 19.9, 20.1, -17.5, -88.0, 88.73, 92.0, 93.5],
 }
 
 
@@ -347,7 +352,7 @@ COMPLEX = {
     "sqrt": mp.sqrt, "cbrt": lambda z: mp.exp(mp.log(z) / 3),
     "sin": mp.sin, "cos": mp.cos, "tan": mp.tan, "asin": mp.asin, "acos": mp.acos, "atan": mp.atan,
     "sinh": mp.sinh, "cosh": mp.cosh, "tanh": mp.tanh, "asinh": mp.asinh, "acosh": CACOSH, "atanh": mp.atanh,
-    "sinc": lambda z: mp.sin(z) / z,
+    "sinc": lambda z: mp.sin(z) / z, "sinhc": lambda z: mp.sinh(z) / z, "exprel": lambda z: mp.expm1(z) / z,
     "sec": lambda z: 1 / mp.cos(z), "csc": lambda z: 1 / mp.sin(z), "sech": lambda z: 1 / mp.cosh(z), "csch": lambda z: 1 / mp.sinh(z),
 }
 SLOW = {"gamma": mp.gamma, "digamma": mp.digamma, "trigamma": lambda z: mp.polygamma(1, z)}

@@ -60,6 +60,28 @@ small = size(1e-20, 2)
 exponent = size(1e-15, 80)
 log, exp, sqrt, sin, cos, tan = mp.log, mp.exp, mp.sqrt, mp.sin, mp.cos, mp.tan
 
+MORE = [
+    ("cardinal", "f(x: real) = sin(x)/x", lambda x: sin(x)/x, point(size(1e-50, 1e3))),
+    ("cardinal", "f(x: real) = 3*x/sin(2*x)", lambda x: 3*x/sin(2*x), point(size(1e-50, 1e3))),
+    ("cardinal,one-minus-cos", "f(x: real) = (1 - cos(3*x))/x^2", lambda x: (1-cos(3*x))/x**2, point(size(1e-50, 1e3))),
+    ("cardinal,expm1", "f(x: real) = x/(exp(x) - 1)", lambda x: x/(exp(x)-1), point(size(1e-50, 500))),
+    ("root-of-squares", "f(x, y) = sqrt(x^2 - y^2)", lambda x, y: sqrt(x*x - y*y), lambda: (lambda y: [y*(1 + up(1e-14, 1e3)()), y])(up(1e-200, 1e200)())),
+    ("log-tan", "f(x: real) = log(tan(pi/4 + x))", lambda x: log(tan(mp.pi/4 + x)), point(size(1e-20, 0.7))),
+    ("log-tan", "f(x: real) = log(tan(pi/4 - x/2))", lambda x: log(tan(mp.pi/4 - x/2)), point(size(1e-20, 1.5))),
+    ("log-sum", "f(x: real) = log(1 + exp(x))", lambda x: mp.log1p(exp(x)), point(size(1e-5, 1e5))),
+    ("log-sum", "f(x, y) = log(exp(x) + exp(y))", lambda x, y: log(exp(x) + exp(y)), point(size(10, 1e4), size(10, 1e4))),
+    ("log-cosh", "f(x: real) = log(cosh(x))", lambda x: log(mp.cosh(x)), point(size(1e-20, 1e5))),
+    ("log-cosh", "f(x: real) = log(sinh(x))", lambda x: log(mp.sinh(x)), point(up(1e-5, 1e5))),
+    ("log-cosh", "f(x: real) = log(abs(sinh(x)))", lambda x: log(abs(mp.sinh(x))), point(size(1e-5, 1e5))),
+    ("logistic", "f(x: real) = 2/(1 + exp(-2*x)) - 1", mp.tanh, point(size(1e-20, 300))),
+    ("logistic", "f(x: real) = 1 - 1/(1 + exp(-x))", lambda x: 1/(1 + exp(x)), point(size(1e-5, 600))),
+    ("acos-near-one", "f(x: real) = acos(1 - x)", lambda x: mp.acos(1 - x), point(up(1e-30, 1.99))),
+    ("gudermannian", "f(x: real) = 2*(atan(exp(x)) - pi/4)", lambda x: mp.atan(mp.sinh(x)), point(size(1e-20, 50))),
+    ("hypot", "f(x: real) = sqrt(2*x^2)", lambda x: sqrt(2)*abs(x), point(size(1e-200, 1e200))),
+]
+
+OWN = {formula for _, formula, _, _ in MORE}
+
 REAL = [
     ("cancel", "f(x, y) = (x + y) - x", lambda x, y: y, point(any_, any_)),
     ("constants,sinh", "f(x: real) = (exp(x) - exp(-x))/2", mp.sinh, point(exponent)),
@@ -124,6 +146,7 @@ REAL = [
     ("remainder,quotients", "f(x: real) = 1/x - 1/tan(x)", lambda x: 1/x - 1/tan(x), point(size(1e-20, 1.5))),
     ("remainder", "f(x: real) = (x - sin(x))/(x - tan(x))", lambda x: (x-sin(x))/(x-tan(x)), point(size(1e-20, 1.5))),
     ("products,log-difference", "f(x: real) = (x + 1)*log(x + 1) - x*log(x) - 1", lambda x: (x+1)*log(x+1) - x*log(x) - 1, point(up(10, 1e30))),
+    *MORE,
 ]
 
 
@@ -145,6 +168,8 @@ COMPLEX = [
     ("cos-difference", "f(z) = cos(z + 2^-10) - cos(z)", lambda z: cos(z+mpf(2)**-10) - cos(z), z(1e-3, 20)),
     ("log-abs", "f(z) = log(abs(z))", lambda z: log(abs(z)), lambda: mpc(*(lambda t, d: (float(cos(t)*(1+d)), float(sin(t)*(1+d))))(random.uniform(-3, 3), size(1e-15, 0.3)()))),
     ("log-power", "f(z) = log(abs(z^9))", lambda z: 9*log(abs(z)), z(1e-100, 1e100)),
+    ("cardinal", "f(z) = sin(z)/z", lambda z: sin(z)/z, z(1e-30, 20)),
+    ("cardinal", "f(z) = (exp(z) - exp(-z))/(2*z)", lambda z: mp.sinh(z)/z, z(1e-30, 20)),
 ]
 
 # what leaves the range of numbers on its way; drawn from a sequence of its own
@@ -168,6 +193,9 @@ def write_real(name, formulas):
     with open(OUT / name, "w") as out:
         for rules, formula, f, draw in formulas:
             out.write(f"# {rules}\t{formula}\n")
+            before = random.getstate()
+            if formula in OWN:  # later ones leave the points of the others as they are
+                random.seed(formula)
             rows = 0
             while rows < 60:
                 args = draw()
@@ -176,6 +204,8 @@ def write_real(name, formulas):
                     continue
                 out.write("\t".join([repr(a) for a in args] + [text(value)]) + "\n")
                 rows += 1
+            if formula in OWN:
+                random.setstate(before)
 
 
 def main():

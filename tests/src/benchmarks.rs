@@ -9,3 +9,4 @@ pub mod data;
 pub mod measure;
 pub mod report;
 pub mod rewriting;
+pub mod store;

@@ -12,12 +12,14 @@ pub struct Source {
     pub text: String,
 }
 
-/// The root of the workspace.
+/// The root of the workspace: where it was compiled, or for a binary that was carried elsewhere the current folder.
 #[must_use]
 pub fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .parent()
-        .map_or_else(PathBuf::new, Path::to_owned)
+    let compiled = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
+    match compiled {
+        Some(root) if root.join("tests/data").is_dir() => root.to_owned(),
+        _ => PathBuf::from("."),
+    }
 }
 
 /// The files of a folder with an extension, by name.

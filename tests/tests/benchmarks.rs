@@ -5,6 +5,7 @@ use pullback_tests::accuracy::evaluators::suite_gpu;
 use pullback_tests::benchmarks::data::{Benchmark, COLLECTIONS, collection};
 use pullback_tests::benchmarks::measure::{Machine, Row, formula, measure, results};
 use pullback_tests::benchmarks::report::{NOISE, summary, ways, worsened};
+use pullback_tests::benchmarks::store::Store;
 
 fn all() -> Vec<Benchmark> {
     COLLECTIONS
@@ -83,8 +84,10 @@ fn rewrites_halve_what_cancellation_loses_and_make_nothing_worse() {
     let ways = ways(&[Precision::Accurate]);
     let rows: Vec<Row> = subset(&all)
         .into_iter()
-        .map(|b| measure(b, &machine, &ways).unwrap_or_else(|e| panic!("{e}")))
+        .map(|b| measure(b, &machine, &ways, &Store::default()).unwrap_or_else(|e| panic!("{e}")))
         .collect();
+    let refused: Vec<&String> = rows.iter().flat_map(|r| &r.refused).collect();
+    assert!(refused.is_empty(), "{refused:?}");
     let median = |rewrites| {
         let cancelling = rows.iter().filter(|r| r.benchmark.cancels());
         let lost = cancelling.filter_map(|r| Some(r.loss(Precision::Accurate, rewrites)?.single));
@@ -94,7 +97,7 @@ fn rewrites_halve_what_cancellation_loses_and_make_nothing_worse() {
     println!("median of cancelling expressions: {before:.2} bits, {after:.2} with rewrites");
     assert!(before > 4.0, "{before}");
     assert!(after <= before / 2.0, "{before} to {after}");
-    let worse: Vec<String> = worsened(&rows, Precision::Accurate)
+    let worse: Vec<String> = worsened(&rows, Precision::Accurate, NOISE)
         .iter()
         .map(|(row, before, after)| format!("{}: {before:.2} to {after:.2}", row.benchmark.id))
         .collect();

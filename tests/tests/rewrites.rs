@@ -251,7 +251,7 @@ fn the_document_lists_the_rules() {
 }
 
 /// What no rule may touch: an identity that fails on a branch or overflows, or a form that is no better.
-const UNTOUCHED: [&str; 21] = [
+const UNTOUCHED: [&str; 20] = [
     "f(x, y) = x^2 - 2 x y + y^2",
     "f(x, y, z) = x y - x z",
     "f(x, y) = x + 1 - 0.3",
@@ -261,7 +261,6 @@ const UNTOUCHED: [&str; 21] = [
     "f(x, y) = sin(x) + 1",
     "f(x, y) = sqrt(x) + sqrt(y)",
     "f(x: real) = exp(-x)/(1 + exp(-x))",
-    "f(x: real) = 1 - 1/(1 + exp(-x))",
     "f(z) = sqrt(z) - sqrt(1 - z)",
     "f(z) = log(z) - log(-z)",
     "f(z) = log(z^2)",
@@ -339,6 +338,10 @@ fn special_values_stay() {
                 "cubes" if count == 2 => has(|x| x.abs() > 1e60) && case.text.contains("^5"),
                 // the infinity on this side of 0
                 "exp-ratio" => args[0] == 0.0 && after.is_infinite(),
+                // what is written is 0, because both squares are
+                "root-of-squares" => args.iter().all(|x| x.abs() < 1e-150),
+                // π/4 is lost beside the argument
+                "log-tan" => args[0].abs() > 1e300,
                 _ => false,
             };
             if excused {
@@ -401,7 +404,7 @@ fn zeros_keep_their_signs() {
 fn derivatives_do_not_get_worse() {
     use pullback_compiler::module::{What, evaluation, stable_evaluation};
     type Slope = fn(f64) -> f64;
-    let cases: [(&str, Slope, [f64; 3]); 7] = [
+    let cases: [(&str, Slope, [f64; 3]); 12] = [
         (
             "f(x: real) = sqrt(x + 1) - sqrt(x)",
             |x| -0.5 / (x.sqrt() * (x + 1.0).sqrt() * (x.sqrt() + (x + 1.0).sqrt())),
@@ -429,6 +432,33 @@ fn derivatives_do_not_get_worse() {
             |x| -1.0 / ((1.0 + x * x).sqrt() * (x + (1.0 + x * x).sqrt())),
             [1e3, 1e7, 0.5],
         ),
+        ("f(x: real) = sin(x)/x", sinc_slope, [1e-10, 1e-3, 100.0]),
+        (
+            "f(x: real) = (exp(x) - 1)/x",
+            |x| match x.abs() < 0.01 {
+                true => 0.5 + x * (1.0 / 3.0 + x * (0.125 + x * (1.0 / 30.0 + x / 144.0))),
+                false => (x.exp() - x.exp_m1() / x) / x,
+            },
+            [1e-10, 1e-3, -50.0],
+        ),
+        (
+            "f(x: real) = (1 - cos(x))/x^2",
+            |x| match x.abs() < 0.01 {
+                true => x * (-1.0 / 12.0 + x * x * (1.0 / 180.0 - x * x / 6720.0)),
+                false => (x * x.sin() - 4.0 * (0.5 * x).sin().powi(2)) / x.powi(3),
+            },
+            [1e-10, 1e-3, 3.0],
+        ),
+        (
+            "f(x: real) = log(1 + exp(x))",
+            |x| 1.0 / (1.0 + (-x).exp()),
+            [-5.0, 3.0, 800.0],
+        ),
+        (
+            "f(x: real) = log(tan(pi/4 + x))",
+            |x| 2.0 / (2.0 * x).cos(),
+            [1e-10, 0.3, -0.5],
+        ),
     ];
     for (text, slope, points) in cases {
         let formula = formula(text);
@@ -448,5 +478,46 @@ fn derivatives_do_not_get_worse() {
                 "{text} at {x}: {before} -> {after}"
             );
         }
+    }
+}
+
+/// The derivative of sin(x)/x.
+fn sinc_slope(x: f64) -> f64 {
+    if x.abs() < 0.01 {
+        return -x / 3.0 * (1.0 - x * x / 10.0 * (1.0 - x * x / 28.0));
+    }
+    (x.cos() - x.sin() / x) / x
+}
+
+/// A derivative that stands in a formula is taken of the rewritten expression, in the reference, too.
+#[test]
+fn derivatives_in_formulas_do_not_cancel() {
+    let value = |text: &str, args: &[f64]| {
+        let formula = formula(text);
+        Machine::new(text, &formula.graph, &formula.value).at(args)
+    };
+    for text in [
+        "f(x: real) = diff(sin(x)/x, x)",
+        "g(x: real) = sin(x)/x\nf(x: real) = g'(x)",
+    ] {
+        for x in [1e-12, -1e-5, 0.003, 40.0] {
+            let lost = bits_lost(value(text, &[x]), (sinc_slope(x), 0.0));
+            assert!(lost < 4.0, "{text} at {x}: {lost:.1} bits");
+        }
+    }
+    // -z/3, exprel' = 1/2 + z/3 and of (cosh z - 1)/z² z/12, up to z² of the value
+    for (text, slope) in [
+        ("f(z) = diff(sin(z)/z, z)", -1.0 / 3.0),
+        ("f(z) = diff((exp(z) - 1)/z, z) - 0.5", 1.0 / 3.0),
+        ("f(z) = diff((cosh(z) - 1)/z^2, z)", 1.0 / 12.0),
+    ] {
+        let (re, im) = (1e-6, -2e-6);
+        let got = value(text, &[re, im]);
+        let exact = (slope * re, slope * im);
+        let error = f64::hypot(got.0 - exact.0, got.1 - exact.1);
+        assert!(
+            error < 1e-5 * f64::hypot(exact.0, exact.1),
+            "{text}: {got:?}"
+        );
     }
 }

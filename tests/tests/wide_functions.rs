@@ -39,7 +39,11 @@ fn largest(measured: &Measured) -> String {
         let Some(errors) = errors else { continue };
         let cells = pullback_compiler::table::Metric::ALL.map(|metric| {
             let errors = in_metric(errors, metric);
-            let wrong = if errors.wrong.is_empty() { "" } else { " and wrong" };
+            let wrong = if errors.wrong.is_empty() {
+                ""
+            } else {
+                " and wrong"
+            };
             format!("{:.2}{wrong} {}", errors.max(), metric.word())
         });
         text.push(format!("{what} {}", cells.join(", ").trim_end()));

@@ -108,6 +108,8 @@ pub enum Prim {
     Acosh,
     Atanh,
     Sinc,
+    Sinhc,
+    Exprel,
     Gamma,
     Lgamma,
     Digamma,

@@ -20,6 +20,7 @@ const MATH: &str = concat!(
     include_str!("../../shaders/math/pairs.wgsl"),
     include_str!("../../shaders/math/hash.wgsl"),
     include_str!("../../shaders/math/slope.wgsl"),
+    include_str!("../../shaders/math/cardinal.wgsl"),
     include_str!("../../shaders/math/polygamma.wgsl"),
 );
 
@@ -40,6 +41,7 @@ macro_rules! wide {
             include_str!("../../shaders/wide/pairs.wgsl"),
             include_str!("../../shaders/wide/hash.wgsl"),
             include_str!("../../shaders/wide/slope.wgsl"),
+            include_str!("../../shaders/wide/cardinal.wgsl"),
             include_str!("../../shaders/wide/polygamma.wgsl"),
         )
     };

@@ -5,6 +5,7 @@
 //! other evaluator are judged against this one.
 
 pub mod arc;
+pub mod cardinal;
 pub mod complex;
 pub mod gamma;
 pub mod hash;

@@ -471,6 +471,18 @@ impl Pass {
                 let new = g.div(numerator, sum);
                 self.by(Rule::Cbrt, new)
             }
+            (Prim::Div, &[n, d]) if real => self.logistic(g, n, d, k),
+            // atan(exp a) - π/4 = atan(tanh(a/2))
+            (Prim::Atan, &[a]) if real && is(std::f64::consts::FRAC_PI_4) => {
+                let exponent = self.argument(g, a, Prim::Exp)?;
+                if !self.on(Rule::Gudermann) {
+                    return None;
+                }
+                let half = scaled(g, 0.5, exponent);
+                let tanh = g.apply(Prim::Tanh, &[half]);
+                let new = g.apply(Prim::Atan, &[tanh]);
+                self.by(Rule::Gudermann, new)
+            }
             (Prim::Pow, &[base, exponent]) if real && is(1.0) => {
                 self.power_minus_one(g, u, base, exponent)
             }

@@ -14,7 +14,10 @@ impl Pass {
         let args: SmallVec<[Id; 3]> = g.node(id).args.clone();
         self.inputs_too = false;
         match (prim, args.as_slice()) {
-            (Prim::Sqrt, &[a]) => self.hypot(g, a),
+            (Prim::Sqrt, &[a]) => {
+                let found = self.hypot(g, a);
+                found.or_else(|| self.root_of_squares(g, a))
+            }
             (Prim::Log, &[a]) => self.log_of(g, a),
             (Prim::Arg, &[a]) => self.arg_of(g, a),
             (Prim::Mul, &[a, b]) => {
@@ -27,8 +30,10 @@ impl Pass {
                 let quotient = quotient.or_else(|| self.tan_half(g, a, b));
                 let quotient = quotient.or_else(|| self.ratio(g, a, b));
                 let quotient = quotient.or_else(|| self.in_range(g, a, b));
+                let quotient = quotient.or_else(|| self.cardinal(g, id));
                 quotient.or_else(|| self.constants(g, Prim::Div, a, b))
             }
+            (Prim::Acos, &[a]) => self.acos(g, id, a),
             (Prim::Pow, &[base, exponent]) => self.compound_power(g, id, base, exponent),
             _ => None,
         }
@@ -45,20 +50,9 @@ impl Pass {
         }
         let mut sides: SmallVec<[Id; 3]> = SmallVec::new();
         for (monomial, value) in &p.terms {
-            let root = value.sqrt();
-            let even = monomial.iter().all(|(_, power)| power % 2 == 0);
-            if !even || root * root != *value || root.mul_add(root, -value) != 0.0 {
-                return None;
-            }
-            let half: Monomial = monomial.iter().map(|&(atom, p)| (atom, p / 2)).collect();
-            let side = match build_monomial(g, &half) {
-                Some(product) => {
-                    let root = g.real(root);
-                    g.mul(root, product)
-                }
-                None => g.real(root),
-            };
-            sides.push(side);
+            // beside another side, the root of a factor must be exact
+            let alone = p.terms.len() == 1;
+            sides.push(root(g, monomial, *value, alone)?);
         }
         let new = match sides.as_slice() {
             [one] => g.apply(Prim::Abs, &[*one]),
@@ -66,6 +60,32 @@ impl Pass {
             _ => g.apply(Prim::Hypot3, &sides),
         };
         self.by(Rule::Hypot, new)
+    }
+
+    /// √(a² - b²) = √(|a| - |b|) √(|a| + |b|)
+    fn root_of_squares(&mut self, g: &mut Graph, a: Id) -> Option<Id> {
+        if !is_real(g, a) || !self.on(Rule::RootOfSquares) {
+            return None;
+        }
+        let p = self.polynomial(g, a, Expand::Constants)?;
+        let (u, v) = match p.terms.as_slice() {
+            [u, v] if v.1 < 0.0 => (u, v),
+            [v, u] if v.1 < 0.0 => (u, v),
+            _ => return None,
+        };
+        // beside a constant, nothing overflows before the root is infinite
+        if p.cancelled > 0 || u.1 <= 0.0 || u.0.is_empty() || v.0.is_empty() {
+            return None;
+        }
+        let (u, v) = (root(g, &u.0, u.1, false)?, root(g, &v.0, -v.1, false)?);
+        let (u, v) = (g.apply(Prim::Abs, &[u]), g.apply(Prim::Abs, &[v]));
+        let (difference, sum) = (g.sub(u, v), g.add(u, v));
+        let (left, right) = (
+            g.apply(Prim::Sqrt, &[difference]),
+            g.apply(Prim::Sqrt, &[sum]),
+        );
+        let product = g.mul(left, right);
+        self.by(Rule::RootOfSquares, product)
     }
 
     fn log_of(&mut self, g: &mut Graph, a: Id) -> Option<Id> {
@@ -85,6 +105,7 @@ impl Pass {
             _ => None,
         };
         let found = found.or_else(|| self.inverse_hyperbolic(g, a));
+        let found = found.or_else(|| self.log_of_exponentials(g, a));
         found.or_else(|| {
             if !self.on(Rule::Log1p) {
                 return None;
@@ -328,6 +349,22 @@ impl Pass {
         let new = super::guard::scaled(g, product, rest);
         self.by(Rule::Constants, new)
     }
+}
+
+/// √value · the root of a monomial of even powers, but for signs; of a value whose root is not exact only where `rounded`.
+fn root(g: &mut Graph, monomial: &Monomial, value: f64, rounded: bool) -> Option<Id> {
+    let root = value.sqrt();
+    let even = monomial.iter().all(|(_, power)| power % 2 == 0);
+    let exact = root * root == value && root.mul_add(root, -value) == 0.0;
+    if !even || !(exact || rounded && root.is_normal()) {
+        return None;
+    }
+    let half: Monomial = monomial.iter().map(|&(atom, p)| (atom, p / 2)).collect();
+    let factor = g.real(root);
+    Some(match build_monomial(g, &half) {
+        Some(product) => g.mul(factor, product),
+        None => factor,
+    })
 }
 
 /// Whether 1/c is exact: c is a power of two.

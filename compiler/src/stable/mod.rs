@@ -8,10 +8,12 @@
 //! run over what is computed in the end, values and derivatives alike. The `f64` reference runs none: it computes
 //! what is written.
 
+mod cardinal;
 mod explain;
 mod functions;
 mod guard;
 mod identity;
+mod logarithms;
 mod pass;
 mod polynomial;
 mod powers;
@@ -25,7 +27,7 @@ pub use explain::{Explanation, Step, explain};
 pub use pass::{Applied, Stable, stabilise};
 pub use rule::{RULES, Record, Rewrites, Rule};
 
-use crate::ir::{Graph, Id};
+use crate::ir::{Graph, Id, Op, transcribe};
 
 /// When a rewrite is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +49,30 @@ pub fn finish(graph: Graph, roots: Vec<Id>, rewrites: Rewrites) -> (Graph, Vec<I
         return (graph, roots);
     }
     (stable.graph, stable.roots)
+}
+
+/// What is differentiated where a derivative stands in a formula: the roots, in the same graph, rewritten by the rules that
+/// keep derivatives good. Nobody has written that derivative, so it is the better one in every evaluator. Roots with loops
+/// stay: a value and its tangents share those.
+#[must_use]
+pub fn before_derivative(graph: &mut Graph, roots: &[Id]) -> Vec<Id> {
+    let live = graph.reachable(roots);
+    let of_loop = |op| {
+        matches!(
+            op,
+            Op::State(..) | Op::Counter(_) | Op::Loop { .. } | Op::Result(_)
+        )
+    };
+    if (graph.nodes().iter().zip(&live)).any(|(node, live)| *live && of_loop(node.op)) {
+        return roots.to_vec();
+    }
+    let stable = stabilise(graph, roots, Rewrites::ON, Phase::Early);
+    if stable.applied.is_empty() {
+        return roots.to_vec();
+    }
+    transcribe(&stable.graph, &stable.roots, graph, |g, node, args| {
+        g.intern(node.op, node.ty, args)
+    })
 }
 
 #[cfg(test)]

@@ -62,7 +62,7 @@ rules! {
         "discrete product rule";
     Squares "squares", false, "real and complex":
         "a² - b² = (a - b)·(a + b)",
-        "reals everywhere, in a sum of two terms; |a| and |b| are taken, so that an exact zero is +0 as written. Complex a and constant b: only the real part is taken from the product, the imaginary part from a², where it does not cancel and its sign chooses the side of a cut. a² may overflow where the product does not. Not before differentiation: (2a)' is better than the derivative of the product",
+        "reals everywhere, in a sum of two terms, and of a constant b where 2|a² - b²| < a², since elsewhere the product rounds more; |a| and |b| are taken, so that an exact zero is +0 as written. Complex a and constant b: only the real part is taken from the product, the imaginary part from a², where it does not cancel and its sign chooses the side of a cut. a² may overflow where the product does not. Not before differentiation: (2a)' is better than the derivative of the product",
         "D. Goldberg, What every computer scientist should know about floating-point arithmetic, ACM Comput. Surv. 23 (1991), section 1.4";
     Cubes "cubes", false, "real and complex":
         "a³ - b³ = (a - b)·(a² + a·b + b²), and so on for aⁿ - bⁿ, n = 5, 7",
@@ -189,13 +189,45 @@ rules! {
         "of the derivatives of atan, where a - b is simplified",
         "factorisation";
     Hypot "hypot", true, "real":
-        "√(a² + b²) = hypot(a, b), √(a² + b² + c²) = length(a, b, c), √(a²) = |a|",
+        "√(a² + b²) = hypot(a, b), √(a² + b² + c²) = length(a, b, c), √(c·a²) = √c·|a|",
         "everywhere, constants that are squares among the terms, too; does not overflow, nor underflow, where the result does not. As in C99, infinite where an argument is, even beside a NaN",
         "W. Kahan 1987; C99 7.12.7.3";
     Asinh "asinh", true, "real":
         "log(x + √(x² + 1)) = asinh x, log(x + √(x² - 1)) = acosh x",
         "everywhere; asinh of negative x, where the sum cancels, and of huge ones, where x² overflows; acosh is NaN below 1 as the logarithm is",
         "DLMF 4.37.16, 4.37.19";
+    Cardinal "cardinal", true, "real and complex":
+        "sin a/a = sinc a, sinh a/a = sinhc a, expm1 a/a = exprel a",
+        "everywhere, powers and inverses of them, and with constant factors of a, too; 1 instead of NaN at a = 0, the limit at ±∞, and no overflow before that of the quotient. The values are no better: the derivatives are, which cancel near 0 as those of quotients",
+        "DLMF 4.19.1, 4.33.1, 4.2.19";
+    RootOfSquares "root-of-squares", false, "real":
+        "√(a² - b²) = √(|a| - |b|)·√(|a| + |b|)",
+        "everywhere, but for a constant a or b; neither overflows nor underflows where the result does not, nor cancels. NaN for |a| < |b|, where a² and b² underflow, too; infinite a and b give NaN either way",
+        "Higham, section 1.14";
+    LogTan "log-tan", true, "real":
+        "log(tan(π/4 + a)) = 2·atanh(tan a)",
+        "everywhere: tan(π/4 + a) is positive where |tan a| < 1, and NaN comes out elsewhere; the sum with π/4 would round a",
+        "DLMF 4.23.39, 4.37.24";
+    LogSum "log-sum", true, "real":
+        "log(1 + exp a) = a + log1p(exp(-a)), log(exp a + exp b) = a + log1p(exp(b - a))",
+        "the exponent that is greater stands outside, so that nothing overflows; where |a - b| is no number below 10³⁰, as written",
+        "P. Blanchard, D. J. Higham, N. J. Higham, Accurately computing the log-sum-exp and softmax functions, IMA J. Numer. Anal. 41 (2021)";
+    LogCosh "log-cosh", false, "real":
+        "log(cosh a) = |a| + log1p(exp(-2|a|)) - log 2, log|sinh a| = |a| + log1p(-exp(-2|a|)) - log 2",
+        "for |a| ≥ 1; nearer to 0 log(cosh a) is log1p(2·sinh²(a/2)), and log|sinh a| as written. Not before differentiation: sinh a/cosh a is better",
+        "DLMF 4.28.1, 4.28.2, 4.35.16";
+    Logistic "logistic", true, "real":
+        "c/(1 + exp a) - c/2 = -c/2·tanh(a/2), c/(1 + exp a) - c = -c/(1 + exp(-a))",
+        "everywhere, c a constant; 0 with its sign at a = 0",
+        "DLMF 4.28.4";
+    Acos "acos-near-one", true, "real":
+        "acos(1 - a) = 2·asin(√(a/2))",
+        "guarded by 0 ≤ a < 1/4, else as written; 1 - a would lose the digits of a",
+        "DLMF 4.21.21";
+    Gudermann "gudermannian", true, "real":
+        "atan(exp a) - π/4 = atan(tanh(a/2))",
+        "everywhere",
+        "DLMF 4.23.39 to 4.23.41";
     Remainder "remainder", true, "real":
         "f(a) minus the first terms of its Taylor series = the rest of the series",
         "sin a - a, sinh a - a, exp a - 1 - a, expm1 a - a, cos a - 1 + a²/2, cosh a - 1 - a²/2, tan a - a; guarded by |a| < 1, else as written. A zero has the sign of the rest",

@@ -3,10 +3,10 @@
 use smallvec::SmallVec;
 
 use super::Phase;
-use super::guard::is_real;
+use super::guard::{choose, is_real, less, scaled};
 use super::pass::{Pass, only_atom};
 use super::polynomial::{
-    Expand, Monomial, Polynomial, build, build_monomial, build_term, exact_product,
+    Expand, Monomial, Polynomial, build, build_monomial, build_term, constant, exact_product,
     monomial_product,
 };
 use super::rule::Rule;
@@ -227,10 +227,27 @@ impl Pass {
             let product = self.squares_of_parts(g, a, u, v)?;
             return self.by(Rule::Squares, product);
         }
-        let (u, v) = (g.apply(Prim::Abs, &[u]), g.apply(Prim::Abs, &[v]));
-        let (difference, sum) = (g.sub(u, v), g.add(u, v));
+        let (left, right) = (g.apply(Prim::Abs, &[u]), g.apply(Prim::Abs, &[v]));
+        let (difference, sum) = (g.sub(left, right), g.add(left, right));
         let product = g.mul(difference, sum);
-        self.by(Rule::Squares, product)
+        let new = match constant(g, v) {
+            // a numerator stays a product, of which one factor is divided
+            Some(_) if depth == MAX_DEPTH => Self::where_it_cancels(g, u, v, product),
+            _ => product,
+        };
+        self.by(Rule::Squares, new)
+    }
+
+    /// The product for u² - v² where the constant v² is of like size, else as written. Of e the unit of rounding, what is
+    /// written loses e u² in its square and e |u² - v²| in the difference, the product 3 e |u² - v²|: less where
+    /// 2 |u² - v²| < u².
+    fn where_it_cancels(g: &mut Graph, u: Id, v: Id, product: Id) -> Id {
+        let [square, other] = [u, v].map(|x| g.apply(Prim::PowInt(2), &[x]));
+        let written = g.sub(square, other);
+        let size = g.apply(Prim::Abs, &[written]);
+        let double = scaled(g, 2.0, size);
+        let condition = less(g, double, square);
+        choose(g, condition, product, written)
     }
 
     /// z² - v² for a constant v: the real part of (z - v)(z + v), and the imaginary part of z², which does not cancel

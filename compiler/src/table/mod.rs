@@ -5,6 +5,7 @@
 
 mod arithmetic;
 mod bounds;
+mod cardinal;
 mod comparison;
 mod complex;
 mod derivative;
@@ -179,6 +180,7 @@ pub fn rows() -> &'static [Row] {
         rows.extend(exponential::rows());
         rows.extend(trigonometric::rows());
         rows.extend(hyperbolic::rows());
+        rows.extend(cardinal::rows());
         rows.extend(rounding::rows());
         rows.extend(comparison::rows());
         rows.extend(special::rows());

@@ -178,23 +178,6 @@ pub fn rows() -> Vec<Row> {
                 complex: 0,
             },
         },
-        Row {
-            prim: Prim::Sinc,
-            mnemonic: "sinc",
-            names: &["sinc"],
-            usage: "sinc(x)",
-            doc: "sin(x)/x, and 1 at 0",
-            typing: Typing::Real(1),
-            real: Some(|a| real::sinc(a[0])),
-            complex: None,
-            derivative: Derivative::Partial(sinc_partial),
-            gpu: Gpu::Library("real_sinc", None),
-            gpu_complex: "",
-            cost: Weight {
-                real: 12,
-                complex: 0,
-            },
-        },
     ]
 }
 
@@ -215,27 +198,4 @@ fn atan2_partial(g: &mut Graph, args: &[Id], _: Id, k: usize) -> Id {
     let cosine = direction(g, &[x, y], k, r);
     let rate = g.div(cosine, r);
     if k == 0 { rate } else { g.neg(rate) }
-}
-
-/// (cos x - sinc x)/x away from 0; for |x| < 1 its Taylor series Σ (-1)ᵏ 2k x²ᵏ⁻¹/(2k+1)!, whose first omitted
-/// term is below 2⁻⁵³ of the first.
-fn sinc_partial(g: &mut Graph, args: &[Id], value: Id, _: usize) -> Id {
-    let x = args[0];
-    let xx = square(g, x);
-    let mut series = g.real(0.0);
-    for k in (1..=9_i32).rev() {
-        let factorial: f64 = (1..=2 * k + 1).map(f64::from).product();
-        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-        let coefficient = g.real(sign * 2.0 * f64::from(k) / factorial);
-        let product = g.mul(series, xx);
-        series = g.add(coefficient, product);
-    }
-    let near = g.mul(series, x);
-    let cos = call(g, Prim::Cos, x);
-    let difference = g.sub(cos, value);
-    let far = g.div(difference, x);
-    let size = call(g, Prim::Abs, x);
-    let one = g.real(1.0);
-    let small = g.apply(Prim::Less, &[size, one]);
-    g.apply(Prim::Select, &[small, near, far])
 }

@@ -48,6 +48,7 @@ pub struct Stage {
     pub built: f64,
 }
 
+#[derive(Clone)]
 enum Pass {
     Compute(wgpu::ComputePipeline),
     Fragment(wgpu::RenderPipeline),
@@ -148,6 +149,17 @@ impl Canvas {
             pass,
             bindings,
             built,
+        })
+    }
+
+    /// A pipeline that another canvas has made, for the uniforms and the size of this one.
+    pub fn moved(&self, stage: &Stage, format: Format) -> Result<Stage, Error> {
+        let pass = stage.pass.clone();
+        let bindings = self.gpu.guarded("binding", || self.bind(&pass, format))?;
+        Ok(Stage {
+            pass,
+            bindings,
+            built: stage.built,
         })
     }
 

@@ -1,5 +1,8 @@
 //! What a tier loses on a benchmark, with and without rewrites.
 
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use pullback_compiler::formula::Formula;
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{EvalModule, Evaluator, What, compile_function};
@@ -9,6 +12,7 @@ use pullback_runtime::{Capabilities, Gpu, GpuEvaluator};
 use super::bits::Exact;
 use super::data::{Benchmark, Sample};
 use super::rewriting;
+use super::store::{Store, key};
 
 /// What computes.
 #[derive(Debug)]
@@ -75,6 +79,8 @@ pub struct Row<'b> {
     pub losses: [Option<Loss>; 8],
     /// How many rewrites took place.
     pub rewrites: usize,
+    /// Ways that the device refused, and why.
+    pub refused: Vec<String>,
 }
 
 impl Row<'_> {
@@ -96,38 +102,102 @@ pub fn formula(benchmark: &Benchmark) -> Result<Formula, String> {
     })
 }
 
-/// Measures some ways on a benchmark.
+/// Measures some ways on a benchmark. What the store knows is not computed again. What the device refuses, by a time limit
+/// say, is noted, and has no loss.
 ///
 /// # Errors
-/// It does not compile, or the device refuses it; in words.
+/// It does not compile; in words.
 pub fn measure<'b>(
     benchmark: &'b Benchmark,
     machine: &Machine,
     ways: &[Way],
+    store: &Store,
 ) -> Result<Row<'b>, String> {
     let written = formula(benchmark)?;
     let rewrites = rewriting::count(&written);
     let mut losses = [None; 8];
+    let mut refused = Vec::new();
     for &way in ways {
-        let as_written = Way::new(way.precision, false);
         // what nothing is rewritten in need not be computed again
-        if way.rewrites && rewrites == 0 && losses[as_written.place()].is_some() {
-            losses[way.place()] = losses[as_written.place()];
+        let other = Way::new(way.precision, !way.rewrites);
+        if rewrites == 0 && losses[other.place()].is_some() {
+            losses[way.place()] = losses[other.place()];
             continue;
         }
         let formula = rewriting::with_rewrites(&written, way.rewrites);
-        let Some(results) = results(&formula, machine, way.precision, &benchmark.points)
-            .map_err(|e| format!("{} ({:?}): {e}", benchmark.id, way))?
-        else {
-            continue;
-        };
-        losses[way.place()] = Some(loss(way.precision, &benchmark.points, &results));
+        match lost(&formula, machine, way.precision, &benchmark.points, store) {
+            Ok(loss) => losses[way.place()] = loss,
+            Err(e) => refused.push(format!("{} ({way:?}): {e}", benchmark.id)),
+        }
+        if rewrites == 0 {
+            losses[other.place()] = losses[way.place()];
+        }
     }
     Ok(Row {
         benchmark,
         losses,
         rewrites,
+        refused,
     })
+}
+
+/// Measures benchmarks on several machines at once, one thread each: on a GPU it is the driver's compiler that takes the
+/// time. `done` is told how many are finished.
+pub fn measure_all<'b>(
+    benchmarks: &[&'b Benchmark],
+    machines: &[Machine],
+    ways: &[Way],
+    store: &Store,
+    done: &(impl Fn(usize) + Sync),
+) -> Vec<Result<Row<'b>, String>> {
+    // the longest first, so that no thread ends with one alone
+    let mut order: Vec<usize> = (0..benchmarks.len()).collect();
+    order.sort_by_key(|&k| std::cmp::Reverse(benchmarks[k].program.len()));
+    let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let rows = Mutex::new(Vec::new());
+    let work = |machine: &Machine| {
+        while let Some(&k) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let row = measure(benchmarks[k], machine, ways, store);
+            done(1 + finished.fetch_add(1, Ordering::Relaxed));
+            if let Ok(mut rows) = rows.lock() {
+                rows.push((k, row));
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        for machine in machines {
+            scope.spawn(|| work(machine));
+        }
+    });
+    let mut rows = rows.into_inner().unwrap_or_default();
+    rows.sort_by_key(|(k, _)| *k);
+    rows.into_iter().map(|(_, row)| row).collect()
+}
+
+/// What a formula loses at the points, or `None` where the machine has no such tier.
+fn lost(
+    formula: &Formula,
+    machine: &Machine,
+    precision: Precision,
+    points: &[Sample],
+    store: &Store,
+) -> Result<Option<Loss>, String> {
+    let Machine::Gpu(gpu) = machine else {
+        let results = results(formula, machine, precision, points)?;
+        return Ok(results.map(|results| loss(precision, points, &results)));
+    };
+    if !gpu.has(precision) {
+        return Ok(None);
+    }
+    let tier = Capabilities::tier(gpu, precision).map_err(|e| e.to_string())?;
+    let module = EvalModule::new(formula, What::Value, tier).map_err(|e| format!("{e:?}"))?;
+    let key = key(&gpu.adapter().to_string(), &module, points);
+    if let Some(known) = store.get(key) {
+        return Ok(Some(known));
+    }
+    let found = loss(precision, points, &computed(gpu, &module, points)?);
+    store.put(key, found)?;
+    Ok(Some(found))
 }
 
 /// The values at the points, or `None` where the machine has no such tier.
@@ -151,7 +221,12 @@ pub fn results(
     }
     let tier = Capabilities::tier(gpu, precision).map_err(|e| e.to_string())?;
     let module = EvalModule::new(formula, What::Value, tier).map_err(|e| format!("{e:?}"))?;
-    let mut evaluator = GpuEvaluator::new(gpu, &module).map_err(|e| e.to_string())?;
+    computed(gpu, &module, points).map(Some)
+}
+
+/// The values of a module on a GPU.
+fn computed(gpu: &Gpu, module: &EvalModule, points: &[Sample]) -> Result<Vec<f64>, String> {
+    let mut evaluator = GpuEvaluator::new(gpu, module).map_err(|e| e.to_string())?;
     let rows: Vec<f64> = points
         .iter()
         .flat_map(|p| p.args.iter().map(|&x| f64::from(x)))
@@ -160,7 +235,7 @@ pub fn results(
     evaluator
         .eval_exactly(Surroundings::default(), points.len(), &rows, &mut out)
         .map_err(|e| e.to_string())?;
-    Ok(Some(out))
+    Ok(out)
 }
 
 fn reference(formula: &Formula, points: &[Sample]) -> Result<Vec<f64>, String> {

@@ -106,35 +106,55 @@ pub fn totals(rows: &[Row], markdown: bool) -> String {
     out + &comparison(rows)
 }
 
-/// What rewrites do to `accurate`.
+/// What rewrites do to each tier.
 #[must_use]
 pub fn comparison(rows: &[Row]) -> String {
     let mut out = String::new();
-    let worse = worsened(rows, Precision::Accurate);
     let changed = rows.iter().filter(|r| r.rewrites > 0).count();
-    let _ = writeln!(
-        out,
-        "Rewritten: {changed}; worse by rewrites in `accurate`: {}",
-        worse.len()
-    );
-    for (row, before, after) in worse {
-        let _ = writeln!(out, "- {}: {before:.3} to {after:.3}", row.benchmark.id);
+    let _ = writeln!(out, "Rewritten: {changed}");
+    for precision in Precision::ALL {
+        let counts: Vec<String> = [NOISE, 0.1, LISTED]
+            .iter()
+            .map(|&more| format!("{} by {more}", worsened(rows, precision, more).len()))
+            .collect();
+        let worse = worsened(rows, precision, LISTED);
+        let both = |row: &&Row| row.loss(precision, false).is_some();
+        if !rows.iter().any(|r| both(&r)) {
+            continue;
+        }
+        let _ = writeln!(
+            out,
+            "Worse by rewrites in `{}`, in bits: {}",
+            format!("{precision:?}").to_lowercase(),
+            counts.join(", ")
+        );
+        for (row, before, after) in worse {
+            let _ = writeln!(out, "- {}: {before:.3} to {after:.3}", row.benchmark.id);
+        }
     }
     out
 }
 
-/// What `accurate` and the like may lose by rewrites, in bits, and still be said to be as good: a point of a benchmark's 64
-/// that rounds to the neighbour costs 1/64.
+/// What a tier may lose by rewrites, in bits, and still be said to be as good: a point of a benchmark's 64 that rounds to
+/// the neighbour costs 1/64.
 pub const NOISE: f64 = 0.25;
 
-/// Rows that a tier computes worse with rewrites, with the bits before and after.
+/// Rows worse by this much are listed, to be read.
+const LISTED: f64 = 0.05;
+
+/// Rows that a tier computes worse with rewrites by more than some bits, with the bits before and after, in the format of
+/// the tier.
 #[must_use]
-pub fn worsened<'r, 'b>(rows: &'r [Row<'b>], precision: Precision) -> Vec<(&'r Row<'b>, f64, f64)> {
+pub fn worsened<'r, 'b>(
+    rows: &'r [Row<'b>],
+    precision: Precision,
+    more: f64,
+) -> Vec<(&'r Row<'b>, f64, f64)> {
     rows.iter()
         .filter_map(|row| {
-            let before = row.loss(precision, false)?.single;
-            let after = row.loss(precision, true)?.single;
-            (after > before + NOISE).then_some((row, before, after))
+            let before = row.loss(precision, false)?.own;
+            let after = row.loss(precision, true)?.own;
+            (after > before + more).then_some((row, before, after))
         })
         .collect()
 }

@@ -1,13 +1,17 @@
 //! Measures the bits that each tier loses on the benchmark expressions of FPBench and Herbie, and prints tables.
 
+use std::io::Write as _;
+use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Instant;
 
 use clap::Parser;
 use pullback_compiler::lower::Precision;
 use pullback_runtime::{AdapterChoice, Gpu};
 use pullback_tests::benchmarks::data::{Benchmark, COLLECTIONS, collection};
-use pullback_tests::benchmarks::measure::{Machine, measure};
+use pullback_tests::benchmarks::measure::{Machine, Way, measure_all};
 use pullback_tests::benchmarks::report::{Style, details, json, telling, totals, ways};
+use pullback_tests::benchmarks::store::Store;
 
 /// The error in bits of each tier on the benchmark expressions of FPBench and Herbie, over float32 points of their stated
 /// domains, against exact values of 200 bits and more.
@@ -27,6 +31,15 @@ struct Options {
     /// Only these tiers
     #[arg(long, value_delimiter = ',', default_values = ["fast", "accurate", "extended", "double"])]
     tiers: Vec<String>,
+    /// Only with rewrites in the wide tiers, whose shaders take seconds to compile
+    #[arg(long)]
+    brief: bool,
+    /// Threads, each with a device of its own
+    #[arg(long, default_value_t = 1)]
+    threads: usize,
+    /// A file that keeps what was measured: a run that was stopped goes on, and one after a change measures what has changed
+    #[arg(long)]
+    store: Option<PathBuf>,
     /// Only benchmarks whose name (collection/file/place) contains this
     #[arg(long, default_value = "")]
     only: String,
@@ -58,15 +71,17 @@ fn main() -> ExitCode {
 }
 
 fn run(options: &Options) -> Result<(), String> {
-    let machine = if options.adapter == "reference" {
-        Machine::Reference
-    } else {
-        let choice: AdapterChoice = options.adapter.parse().unwrap_or_default();
-        let gpu = Gpu::open(&choice).map_err(|e| e.to_string())?;
-        eprintln!("{}", gpu.adapter());
-        Machine::Gpu(Box::new(gpu))
-    };
+    let machines = machines(options)?;
     let tiers = tiers(&options.tiers)?;
+    let is_wanted = |way: &Way| {
+        let wide = matches!(way.precision, Precision::Extended | Precision::Double);
+        way.rewrites || !wide || !options.brief
+    };
+    let ways: Vec<Way> = ways(&tiers).into_iter().filter(is_wanted).collect();
+    let store = match &options.store {
+        Some(path) => Store::open(path)?,
+        None => Store::default(),
+    };
     let (mut fits, mut unfit) = (Vec::new(), Vec::new());
     for name in COLLECTIONS {
         let (some, others) = collection(name)?;
@@ -75,11 +90,23 @@ fn run(options: &Options) -> Result<(), String> {
     }
     let wanted =
         |b: &&Benchmark| b.id.contains(&options.only) && (!options.cancelling || b.cancels());
+    let asked: Vec<&Benchmark> = fits.iter().filter(wanted).collect();
+    let start = Instant::now();
+    let progress = |done: usize| {
+        if done.is_multiple_of(20) || done == asked.len() {
+            let seconds = start.elapsed().as_secs();
+            // where nobody reads it, it is no matter
+            let _ = writeln!(std::io::stderr(), "{done} of {}, {seconds} s", asked.len());
+        }
+    };
     let mut rows = Vec::new();
     let mut refused = Vec::new();
-    for benchmark in fits.iter().filter(wanted) {
-        match measure(benchmark, &machine, &ways(&tiers)) {
-            Ok(row) => rows.push(row),
+    for row in measure_all(&asked, &machines, &ways, &store, &progress) {
+        match row {
+            Ok(row) => {
+                refused.extend(row.refused.iter().cloned());
+                rows.push(row);
+            }
             Err(problem) => refused.push(problem),
         }
     }
@@ -111,8 +138,28 @@ fn run(options: &Options) -> Result<(), String> {
     }
     match refused.len() {
         0 => Ok(()),
-        n => Err(format!("{n} benchmarks were refused")),
+        n => Err(format!("{n} measurements were refused")),
     }
+}
+
+/// One machine for each thread.
+fn machines(options: &Options) -> Result<Vec<Machine>, String> {
+    if options.adapter == "reference" {
+        let one = |_| Machine::Reference;
+        return Ok((0..options.threads.max(1)).map(one).collect());
+    }
+    let choice: AdapterChoice = options.adapter.parse().unwrap_or_default();
+    let open = |_| -> Result<Machine, String> {
+        let gpu = Gpu::open(&choice).map_err(|e| e.to_string())?;
+        Ok(Machine::Gpu(Box::new(gpu)))
+    };
+    let machines: Vec<Machine> = (0..options.threads.max(1))
+        .map(open)
+        .collect::<Result<_, _>>()?;
+    if let Some(Machine::Gpu(gpu)) = machines.first() {
+        eprintln!("{}", gpu.adapter());
+    }
+    Ok(machines)
 }
 
 fn tiers(words: &[String]) -> Result<Vec<Precision>, String> {

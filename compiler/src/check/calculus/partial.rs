@@ -7,6 +7,7 @@ use smallvec::SmallVec;
 use crate::check::{Builder, Source, Value};
 use crate::derive::{ComplexVariable, NoDerivative, forward, jet};
 use crate::ir::{Id, Op, Prim, Ty};
+use crate::stable::before_derivative;
 use crate::table::{self, Derivative, MAX_POLYGAMMA};
 use crate::types::Type;
 
@@ -78,7 +79,8 @@ impl Builder<'_> {
     ) -> Option<SmallVec<[Id; 4]>> {
         self.charge(subject)?;
         let one = self.graph.real(1.0);
-        match forward(&mut self.graph, roots, &[(leaf, one)]) {
+        let stable = before_derivative(&mut self.graph, roots);
+        match forward(&mut self.graph, &stable, &[(leaf, one)]) {
             Ok(tangents) => {
                 let zero = self.graph.real(0.0);
                 let typed = |(&root, tangent): (&Id, Option<Id>)| {
@@ -100,7 +102,8 @@ impl Builder<'_> {
             self.not_holomorphic(value, leaf, subject);
             return None;
         };
-        match jet(&mut self.graph, root, ComplexVariable::Whole(leaf)) {
+        let stable = before_derivative(&mut self.graph, &[root]);
+        match jet(&mut self.graph, stable[0], ComplexVariable::Whole(leaf)) {
             Ok(jet) if jet.dzbar.is_none() => Some(Value::Scalar(jet.dz)),
             Ok(_) => {
                 self.not_holomorphic(value, leaf, subject);

@@ -1,0 +1,79 @@
+// Waves and exponentials divided by their argument: 1 at 0, and finite as long as the quotient is.
+
+/// sinh x / x, 1 at 0; beyond 20 from e^x / 2, scaled down before the division.
+/// Error: 4 u.
+fn real_sinhc(x: real) -> real {
+    let a = real_abs(x);
+    if is_below(a, 1e-12) {
+        return num(1.0);
+    }
+    if is_infinite(a) {
+        return a;
+    }
+    if is_above(a, 20.0) {
+        return scale(real_div(exp_scaled(a, -24), a), 23);
+    }
+    return real_div(real_sinh(a), a);
+}
+
+/// (e^x - 1)/x, 1 at 0, 0 at -∞; beyond 20 from e^x, scaled down before the division.
+/// Error: 4 u.
+fn real_exprel(x: real) -> real {
+    if is_below(real_abs(x), 1e-17) {
+        return num(1.0);
+    }
+    if is_infinite(x) {
+        return choose(sign_is_set(x), num(0.0), x);
+    }
+    if is_above(x, 20.0) {
+        return scale(real_div(exp_scaled(x, -24), x), 24);
+    }
+    return real_div(real_expm1(x), x);
+}
+
+/// sinh z / z. Far out by half the argument, whose functions do not overflow before the quotient does.
+/// Error: 16 u of the norm.
+fn complex_sinhc(z: Complex) -> Complex {
+    if is_zero(z.im) {
+        return Complex(real_sinhc(z.re), flip_if(z.im, sign_is_set(z.re)));
+    }
+    if is_zero(z.re) {
+        return Complex(real_sinc(z.im), flip_if(z.re, sinc_turns(z.im)));
+    }
+    if is_infinite(z.re) {
+        return complex_sinh(Complex(real_abs(z.re), flip_if(z.im, sign_is_set(z.re))));
+    }
+    if is_above(real_abs(z.re), 80.0) {
+        let half = complex_scale(z, -1);
+        return complex_mul(complex_div(complex_sinh(half), half), complex_cosh(half));
+    }
+    return complex_div(complex_sinh(z), z);
+}
+
+/// Whether -sinc' y is negative.
+fn sinc_turns(y: real) -> bool {
+    let falls = is_below(real_abs(y), 1.0) || real_less(real_cos(y), real_sinc(y));
+    return falls == sign_is_set(y);
+}
+
+/// sin z / z = sinh(i z) / (i z).
+/// Error: 16 u of the norm.
+fn complex_sinc(z: Complex) -> Complex {
+    return complex_sinhc(complex_mul_i(z));
+}
+
+/// (e^z - 1)/z. Far out e^(z/2) (e^(z/2)/z).
+/// Error: 16 u of the norm.
+fn complex_exprel(z: Complex) -> Complex {
+    if is_zero(z.im) {
+        return Complex(real_exprel(z.re), z.im);
+    }
+    if is_infinite(z.re) && !sign_is_set(z.re) {
+        return complex_exp(z);
+    }
+    if is_above(z.re, 80.0) {
+        let half = complex_exp(complex_scale(z, -1));
+        return complex_mul(half, complex_div(half, z));
+    }
+    return complex_div(complex_expm1(z), z);
+}
