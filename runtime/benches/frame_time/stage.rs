@@ -153,6 +153,10 @@ impl Canvas {
     }
 
     /// A pipeline that another canvas has made, for the uniforms and the size of this one.
+    #[allow(
+        dead_code,
+        reason = "for the benchmark of tiers, which shares this file"
+    )]
     pub fn moved(&self, stage: &Stage, format: Format) -> Result<Stage, Error> {
         let pass = stage.pass.clone();
         let bindings = self.gpu.guarded("binding", || self.bind(&pass, format))?;
