@@ -191,10 +191,6 @@ fn complex_trigamma(z: Complex) -> Complex {
         }
         return Complex(num(0.0), choose(flat, real_neg(z.im), num(0.0)));
     }
-    if is_below(real_abs(z.re), 1e-10) && is_below(real_abs(z.im), 1e-10) {
-        let pole = complex_square(complex_inverse(z));
-        return Complex(add32(pole.re, 1.644934), choose(flat, real_neg(z.im), pole.im));
-    }
     let left = sign_is_set(z.re) && !is_gamma_far(z);
     let start = complex_choose(left, complex_neg(z), z);
     // ψ′(z) = π² / sin² πz - ψ′(1 - z)

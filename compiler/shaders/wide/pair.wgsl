@@ -185,12 +185,16 @@ fn mul32(a: real, b: f32) -> real {
 /// a / b. Error: 10 u² where the words' quotients are correctly rounded (after JMP algorithm 17).
 fn real_div(a: real, b: real) -> real {
     let zero = hidden_zero_of(a.x, b.x);
-    let q = opaque(a.x / b.x, zero);
+    // a tiny one is scaled, for the low word of q b would underflow
+    let tiny = abs(a.x) < 8.4703295e-22;
+    let v = a * select(1.0, 1.8446744e19, tiny);
+    let q = opaque(v.x / b.x, zero);
     let p = two_product(q, b.x, zero);
-    let rest = opaque(opaque(a.x - p.x, zero) - p.y, zero) + (a.y - q * b.y);
+    let rest = opaque(opaque(v.x - p.x, zero) - p.y, zero) + (v.y - q * b.y);
     let correction = opaque(rest / b.x, zero);
     let bare = pair_is_bare(q) || pair_is_unbounded(correction);
-    return select(quick_two_sum(q, correction, zero), real_from_f32(q), bare);
+    let r = select(quick_two_sum(q, correction, zero), real_from_f32(q), bare);
+    return r * select(1.0, 5.421011e-20, tiny);
 }
 
 /// √a; NaN below 0, -0 of -0. Error: 4 u² (Lefèvre, Louvet, Muller, Picot, Rideau 2023).

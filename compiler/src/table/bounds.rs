@@ -193,6 +193,22 @@ mod tests {
         assert_eq!(keys.len(), written.len());
     }
 
+    /// 2⁻⁴² of the result in pairs and 4 ulp in doubles for elementary functions, four times that for derivatives.
+    #[test]
+    fn wide_tiers_keep_the_limits() {
+        let special = ["gamma", "lgamma", "digamma", "trigamma"];
+        let tiers = [(Precision::Extended, 64.0), (Precision::Double, 4.0)];
+        for bounds in bounds().iter().filter(|b| !special.contains(&b.word)) {
+            for (tier, most) in tiers {
+                let value = bounds.value(Some(tier)).expect("a bound").units;
+                let slope = bounds.derivative(Some(tier)).map_or(0.0, |b| b.units);
+                let (word, name) = (bounds.word, tier.name());
+                assert!(value <= most, "{word}, {name}: {value}");
+                assert!(slope <= 4.0 * most, "{word}′, {name}: {slope}");
+            }
+        }
+    }
+
     /// What can be written and gives a number has bounds, on each type that it takes.
     #[test]
     fn every_function_has_bounds() {
