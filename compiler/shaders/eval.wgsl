@@ -12,7 +12,7 @@ struct Batch {
 @group(0) @binding(0) var<storage, read> rows: array<f32>;
 @group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
 @group(0) @binding(2) var<storage, read_write> results: array<f32>;
-@group(0) @binding(3) var<uniform> batch: Batch;
+@group(0) @binding(4) var<uniform> batch: Batch;
 
 // The results of one row.
 fn evaluate(row: array<f32, 16>) -> array<f32, 40> { return array<f32, 40>(); }

@@ -150,6 +150,12 @@ impl<'a> Parser<'a> {
         self.tokens.get(at).map_or(TokenKind::End, |t| t.kind)
     }
 
+    /// The tokens of the statement that are `from` places on, and those behind them.
+    pub(crate) fn tokens_ahead(&self, from: usize) -> &'a [Token] {
+        let start = self.at.saturating_add(from).min(self.end);
+        self.tokens.get(start..self.end).unwrap_or_default()
+    }
+
     /// Kind of the token before this one, [`TokenKind::End`] at the beginning of the statement.
     pub(crate) fn behind(&self) -> TokenKind {
         self.last().map_or(TokenKind::End, |t| t.kind)

@@ -8,6 +8,7 @@ use crate::ast::{
 };
 use crate::complaint::foreign_statement;
 use crate::paste::names::is_namespace;
+use crate::token::{TokenKind, kind_of_word};
 
 /// How tightly an expression holds together, loosest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,6 +37,36 @@ enum Work<'a> {
     Factor(ExprId, bool),
 }
 
+/// What is printed, and the text that it was read from where numbers are to be written as they are there.
+#[derive(Clone, Copy)]
+struct Tree<'a> {
+    exprs: &'a Exprs,
+    text: Option<&'a str>,
+}
+
+impl<'a> Tree<'a> {
+    /// Puts the number that an expression is on the stack.
+    fn number(self, stack: &mut Vec<Work<'a>>, id: ExprId, value: f64) {
+        match self.literal(id, value) {
+            // `0...5` would not be a range up to .5
+            Some(digits) if digits.starts_with('.') => {
+                stack.extend([Work::Text("0"), Work::Text(digits)]);
+            }
+            Some(digits) => stack.push(Work::Text(digits)),
+            None => stack.push(Work::Number(value)),
+        }
+    }
+
+    /// The digits in the text at the place of a number, if they are its own: what is pasted may stand for others.
+    fn literal(self, id: ExprId, value: f64) -> Option<&'a str> {
+        let written = self.exprs.span(id).text(self.text?);
+        let digits = written.strip_suffix('i').unwrap_or(written);
+        let is_own = kind_of_word(digits) == Some(TokenKind::Number)
+            && digits.parse::<f64>().ok()?.to_bits() == value.to_bits();
+        is_own.then_some(digits)
+    }
+}
+
 /// The canonical text of a file, one statement a line. Comments are no part of the tree and are not kept.
 ///
 /// A tree without [`Expr::Error`] reads back equal; an error is written as `?`.
@@ -57,18 +88,28 @@ pub fn print(file: &File) -> String {
 /// The canonical text of one statement.
 #[must_use]
 pub fn print_item(exprs: &Exprs, item: &Item) -> String {
+    item_of(Tree { exprs, text: None }, item)
+}
+
+/// The canonical text of one statement of a text, with numbers as they are written there.
+pub(crate) fn print_item_of(text: &str, exprs: &Exprs, item: &Item) -> String {
+    let text = Some(text);
+    item_of(Tree { exprs, text }, item)
+}
+
+fn item_of(tree: Tree<'_>, item: &Item) -> String {
     let mut out = String::new();
     match item {
-        Item::Function(item) => function(&mut out, exprs, item),
+        Item::Function(item) => function(&mut out, tree, item),
         Item::Constant(item) => {
             out.push_str(&item.name.text);
             out.push_str(" = ");
-            write(&mut out, exprs, item.value, Level::Where);
+            write(&mut out, tree, item.value, Level::Where);
         }
-        Item::Param(item) => param(&mut out, exprs, item),
-        Item::Show(item) => show(&mut out, exprs, item),
+        Item::Param(item) => param(&mut out, tree, item),
+        Item::Show(item) => show(&mut out, tree, item),
         Item::Formula(item) => {
-            write(&mut out, exprs, item.body, Level::Where);
+            write(&mut out, tree, item.body, Level::Where);
             if looks_foreign(&out) {
                 out = format!("({out})");
             }
@@ -95,7 +136,7 @@ fn looks_foreign(text: &str) -> bool {
 #[must_use]
 pub fn print_expr(exprs: &Exprs, id: ExprId) -> String {
     let mut out = String::new();
-    write(&mut out, exprs, id, Level::Where);
+    write(&mut out, Tree { exprs, text: None }, id, Level::Where);
     out
 }
 
@@ -120,7 +161,7 @@ fn number(out: &mut String, value: f64) {
     }
 }
 
-fn function(out: &mut String, exprs: &Exprs, item: &Function) {
+fn function(out: &mut String, tree: Tree<'_>, item: &Function) {
     out.push_str(&item.name.text);
     out.push('(');
     for (index, param) in item.params.iter().enumerate() {
@@ -134,23 +175,23 @@ fn function(out: &mut String, exprs: &Exprs, item: &Function) {
         }
     }
     out.push_str(") = ");
-    write(out, exprs, item.body, Level::Where);
+    write(out, tree, item.body, Level::Where);
 }
 
-fn param(out: &mut String, exprs: &Exprs, item: &Param) {
+fn param(out: &mut String, tree: Tree<'_>, item: &Param) {
     out.push_str("param ");
     out.push_str(&item.name.text);
     out.push_str(" = ");
-    write(out, exprs, item.default, Level::If);
+    write(out, tree, item.default, Level::If);
     if let Some((lower, upper)) = item.range {
         out.push_str(" in ");
-        write(out, exprs, lower, Level::If);
+        write(out, tree, lower, Level::If);
         out.push_str("..");
-        write(out, exprs, upper, Level::If);
+        write(out, tree, upper, Level::If);
     }
 }
 
-fn show(out: &mut String, exprs: &Exprs, item: &Show) {
+fn show(out: &mut String, tree: Tree<'_>, item: &Show) {
     out.push_str("show ");
     out.push_str(&item.scene.text);
     out.push('(');
@@ -158,17 +199,17 @@ fn show(out: &mut String, exprs: &Exprs, item: &Show) {
         if index > 0 {
             out.push_str(", ");
         }
-        write(out, exprs, arg, Level::If);
+        write(out, tree, arg, Level::If);
     }
     out.push(')');
     for (index, setting) in item.settings.iter().enumerate() {
         out.push_str(if index == 0 { " { " } else { ", " });
         out.push_str(&setting.name.text);
         out.push_str(" = ");
-        write(out, exprs, setting.value, Level::If);
+        write(out, tree, setting.value, Level::If);
         if let Some(upper) = setting.upper {
             out.push_str("..");
-            write(out, exprs, upper, Level::If);
+            write(out, tree, upper, Level::If);
         }
     }
     if !item.settings.is_empty() {
@@ -177,21 +218,21 @@ fn show(out: &mut String, exprs: &Exprs, item: &Show) {
 }
 
 /// Writes an expression with a stack of its own, so that trees of any shape can be written.
-fn write(out: &mut String, exprs: &Exprs, id: ExprId, level: Level) {
+fn write(out: &mut String, tree: Tree<'_>, id: ExprId, level: Level) {
     let mut stack = vec![Work::Expr(id, level, false)];
     while let Some(work) = stack.pop() {
         match work {
             Work::Text(text) => out.push_str(text),
             Work::Number(value) => number(out, value),
             Work::Expr(id, least, in_bars) => {
-                if level_of(&exprs[id]) < least {
+                if level_of(&tree.exprs[id]) < least {
                     bracketed(out, &mut stack, id);
                 } else {
-                    parts(&mut stack, exprs, id, in_bars);
+                    parts(&mut stack, tree, id, in_bars);
                 }
             }
             Work::Factor(id, in_bars) => {
-                let stands_alone = match &exprs[leftmost(exprs, id)] {
+                let stands_alone = match &tree.exprs[leftmost(tree.exprs, id)] {
                     Expr::Number(_)
                     | Expr::Imaginary(_)
                     | Expr::If { .. }
@@ -201,8 +242,8 @@ fn write(out: &mut String, exprs: &Exprs, id: ExprId, level: Level) {
                     } => !in_bars,
                     _ => true,
                 };
-                if stands_alone && level_of(&exprs[id]) >= Level::Power {
-                    parts(&mut stack, exprs, id, in_bars);
+                if stands_alone && level_of(&tree.exprs[id]) >= Level::Power {
+                    parts(&mut stack, tree, id, in_bars);
                 } else {
                     bracketed(out, &mut stack, id);
                 }
@@ -274,14 +315,18 @@ fn level_of(expr: &Expr) -> Level {
 }
 
 /// Puts the parts of an expression on the stack, the first on top.
-fn parts<'a>(stack: &mut Vec<Work<'a>>, exprs: &'a Exprs, id: ExprId, in_bars: bool) {
-    use Work::{Number, Text};
+fn parts<'a>(stack: &mut Vec<Work<'a>>, tree: Tree<'a>, id: ExprId, in_bars: bool) {
+    use Work::Text;
+    let exprs = tree.exprs;
     let base = stack.len();
     let at = |id: ExprId, level: Level| Work::Expr(id, level, in_bars);
     match &exprs[id] {
         Expr::Error => stack.push(Text("?")),
-        Expr::Number(value) => stack.push(Number(*value)),
-        Expr::Imaginary(value) => stack.extend([Number(*value), Text("i")]),
+        Expr::Number(value) => tree.number(stack, id, *value),
+        Expr::Imaginary(value) => {
+            tree.number(stack, id, *value);
+            stack.push(Text("i"));
+        }
         Expr::Name(name) => stack.push(Text(&name.text)),
         Expr::Unary { op, arg } => match op {
             UnaryOp::Neg => stack.extend([Text("-"), at(*arg, Level::Prefix)]),

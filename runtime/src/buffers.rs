@@ -72,11 +72,26 @@ impl Growing {
 
 /// A uniform buffer of `bytes` bytes.
 pub(crate) fn uniform(gpu: &Gpu, label: &'static str, bytes: usize) -> Result<wgpu::Buffer, Error> {
+    fixed(gpu, label, bytes, wgpu::BufferUsages::UNIFORM)
+}
+
+/// The buffer of [`WideWords`](crate::uniforms::WideWords), which shaders read as storage.
+pub(crate) fn wide(gpu: &Gpu) -> Result<wgpu::Buffer, Error> {
+    let bytes = size_of::<crate::uniforms::WideWords>();
+    fixed(gpu, "wide", bytes, wgpu::BufferUsages::STORAGE)
+}
+
+fn fixed(
+    gpu: &Gpu,
+    label: &'static str,
+    bytes: usize,
+    usage: wgpu::BufferUsages,
+) -> Result<wgpu::Buffer, Error> {
     gpu.guarded("allocation", || {
         gpu.device().create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size: bytes as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         })
     })

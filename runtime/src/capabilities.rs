@@ -7,7 +7,7 @@ mod cache;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use pullback_compiler::lower::Exactness;
+use pullback_compiler::lower::{Exactness, Precision, Tier};
 use serde::{Deserialize, Serialize};
 
 use crate::{Error, Gpu, probe};
@@ -178,6 +178,31 @@ impl Capabilities {
         Ok(remember(found))
     }
 
+    /// What numbers of a precision are best computed with on a device: for `extended`, by the fastest exact steps.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] where the adapter cannot keep the bounds of the precision, and the device's.
+    pub fn tier(gpu: &Gpu, precision: Precision) -> Result<Tier, Error> {
+        let refused = |reason| Error::Invalid {
+            reason: format!(
+                "no `{}` on {}: {reason}",
+                precision.name(),
+                gpu.adapter().name
+            ),
+        };
+        match precision {
+            Precision::Fast | Precision::Accurate => Ok(precision.into()),
+            Precision::Extended => Ok(Tier {
+                precision,
+                exactness: Self::of(gpu)?.extended().map_err(refused)?,
+            }),
+            Precision::Double => {
+                Self::of(gpu)?.double().map_err(refused)?;
+                Ok(precision.into())
+            }
+        }
+    }
+
     /// The fastest form of the exact steps that is exact here, for the tier `extended`.
     ///
     /// # Errors
@@ -190,18 +215,6 @@ impl Capabilities {
             .into_iter()
             .find(|&exactness| self.is_exact(exactness))
             .ok_or_else(|| "no form of exact sums and products is exact on this adapter".into())
-    }
-
-    /// The fastest exact form that needs nothing but a shader in text: for the tier `extended` where the module is not
-    /// loaded by us.
-    ///
-    /// # Errors
-    /// Why there is none.
-    pub fn extended_as_text(&self) -> Result<Exactness, String> {
-        [Exactness::Fused, Exactness::Dekker]
-            .into_iter()
-            .find(|&exactness| self.is_exact(exactness))
-            .ok_or_else(|| "no form of hidden sums and products is exact on this adapter".into())
     }
 
     /// Whether a form of the exact steps is known to be exact.
@@ -290,20 +303,17 @@ pub(crate) mod tests {
     #[test]
     fn the_fastest_exact_form_is_chosen() {
         let mut found = ideal();
-        let check = |found: &Capabilities, loaded, text| {
-            assert_eq!(found.extended().ok(), loaded);
-            assert_eq!(found.extended_as_text().ok(), text);
-        };
+        let check = |found: &Capabilities, expected| assert_eq!(found.extended().ok(), expected);
         use Exactness::{DecoratedDekker, DecoratedFused, Dekker, Fused};
-        check(&found, Some(DecoratedFused), Some(Fused));
+        check(&found, Some(DecoratedFused));
         found.forms[3].wrong = 1.0;
-        check(&found, Some(DecoratedDekker), Some(Fused));
+        check(&found, Some(DecoratedDekker));
         found.forms.truncate(2);
-        check(&found, Some(Fused), Some(Fused));
+        check(&found, Some(Fused));
         found.forms[1].wrong = 1e-4;
-        check(&found, Some(Dekker), Some(Dekker));
+        check(&found, Some(Dekker));
         found.forms[0].wrong = 1e-4;
-        check(&found, None, None);
+        check(&found, None);
     }
 
     #[test]
@@ -345,14 +355,14 @@ pub(crate) mod tests {
         };
         let found = probe::capabilities(&gpu).unwrap();
         // Holds everywhere, or `extended` is refused.
-        let exactness = found.extended_as_text().unwrap();
-        assert!(found.is_exact(exactness));
+        assert!(found.extended().is_ok());
         assert_eq!(found.single.two_sum_hidden, 0.0);
         assert!(found.single.rounding.has_correct_sums());
         if !gpu.adapter().driver.contains("Mesa 22") {
             return;
         }
-        assert_eq!(exactness, Exactness::Dekker);
+        assert!(!found.is_exact(Exactness::Fused));
+        assert!(found.is_exact(Exactness::Dekker));
         assert_eq!(found.extended(), Ok(Exactness::DecoratedDekker));
         assert!(found.single.two_sum > 0.2, "reassociates");
         assert!(found.single.two_product_fma > 0.9, "fma is not fused");

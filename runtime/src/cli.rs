@@ -24,9 +24,9 @@ use std::path::PathBuf;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use pullback_compiler::SettingValue;
-use pullback_compiler::lower::Precision;
+use pullback_compiler::lower::{self, Precision};
 use pullback_compiler::stable::{RULES, Rewrites};
-use pullback_runtime::{AdapterChoice, Gpu};
+use pullback_runtime::{AdapterChoice, Capabilities, Gpu};
 
 pub(crate) use console::Console;
 use failure::Failure;
@@ -220,15 +220,15 @@ fn open(device: &Device, console: &Console) -> Result<Gpu, Failure> {
     Ok(gpu)
 }
 
-/// Fails where the adapter does not have the tier.
-fn demand(gpu: &Gpu, precision: Precision) -> Result<(), Failure> {
-    if gpu.has(precision) {
-        return Ok(());
+/// What numbers of a precision are computed with here.
+fn tier(gpu: &Gpu, precision: Precision) -> Result<lower::Tier, Failure> {
+    if !gpu.has(precision) {
+        return Err(Failure::usage_hint(
+            format!("{} has no double precision", gpu.adapter().name),
+            "--precision extended runs on every adapter",
+        ));
     }
-    Err(Failure::usage_hint(
-        format!("{} has no double precision", gpu.adapter().name),
-        "--precision extended runs on every adapter",
-    ))
+    Ok(Capabilities::tier(gpu, precision)?)
 }
 
 impl Arguments {

@@ -6,8 +6,8 @@ use pullback_compiler::EvalModule;
 use pullback_compiler::lower::Format;
 
 use crate::buffers::{self, Growing};
-use crate::uniforms::{self, BatchUniform, MAX_PARAMS, WideUniform};
-use crate::{Error, Gpu, render};
+use crate::uniforms::{self, BatchUniform, MAX_PARAMS, WideWords};
+use crate::{Error, Gpu, shader};
 
 /// Size of a workgroup of `compute_main`.
 const WORKGROUP: u64 = 64;
@@ -55,7 +55,7 @@ impl GpuEvaluator {
     /// # Errors
     /// [`Error::Device`] if the device does not take it.
     pub fn new(gpu: &Gpu, module: &EvalModule) -> Result<Self, Error> {
-        let shader = render::load(gpu, &module.module)?;
+        let shader = shader::load(gpu, &module.module, &module.info, module.tier)?;
         let device = gpu.device();
         let buffer = |binding, ty| wgpu::BindGroupLayoutEntry {
             binding,
@@ -75,7 +75,7 @@ impl GpuEvaluator {
                     buffer(0, Storage { read_only: true }),
                     buffer(1, Uniform),
                     buffer(2, Storage { read_only: false }),
-                    buffer(3, Uniform),
+                    buffer(3, Storage { read_only: true }),
                     buffer(4, Uniform),
                 ],
             });
@@ -100,13 +100,13 @@ impl GpuEvaluator {
             layout,
             inputs: module.inputs.clone(),
             outputs: module.outputs.clone(),
-            format: module.format,
+            format: module.tier.precision.format(),
             rows: Growing::inputs(),
             results: Growing::results(),
             readable: Growing::readable(),
             params: buffers::uniform(gpu, "params", size_of::<[f32; MAX_PARAMS]>())?,
             batch: buffers::uniform(gpu, "batch", size_of::<BatchUniform>())?,
-            wide: buffers::uniform(gpu, "wide", size_of::<WideUniform>())?,
+            wide: buffers::wide(gpu)?,
             bindings: None,
             budget: FIRST,
         })
@@ -219,7 +219,7 @@ impl GpuEvaluator {
             time,
             pixel,
         } = surroundings;
-        let wide = WideUniform::new(self.format, [0.0; 2], time, pixel, params);
+        let wide = WideWords::new(self.format, [0.0; 2], time, pixel, params);
         self.gpu.guarded("upload", || {
             let queue = self.gpu.queue();
             let params = uniforms::params(params);
@@ -283,8 +283,8 @@ impl GpuEvaluator {
                     &row_buffer,
                     &self.params,
                     &result_buffer,
-                    &self.batch,
                     &self.wide,
+                    &self.batch,
                 ];
                 let entries: Vec<_> = (0..)
                     .zip(all)

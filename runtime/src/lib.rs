@@ -29,8 +29,10 @@ pub mod kernel;
 pub mod probe;
 pub mod render;
 pub mod rows;
+pub mod shader;
 
 mod buffers;
+mod pool;
 mod scale;
 mod tiles;
 mod uniforms;

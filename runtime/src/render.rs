@@ -6,13 +6,12 @@ mod fragment;
 use std::io;
 use std::time::Instant;
 
-use naga::Module;
 use pullback_compiler::SceneModule;
 use pullback_compiler::lower::Format;
 
 use crate::tiles::{self, Budget, Pending, Tile};
-use crate::uniforms::{self, MAX_PARAMS, ViewUniform, WideUniform};
-use crate::{Error, Gpu, buffers};
+use crate::uniforms::{self, MAX_PARAMS, ViewUniform, WideWords};
+use crate::{Error, Gpu, buffers, shader};
 
 use compute::ComputeStage;
 use fragment::FragmentStage;
@@ -128,7 +127,7 @@ pub struct Renderer {
     fragment: Option<FragmentStage>,
 }
 
-/// The uniform buffers at bindings 0, 1, 2 and 4.
+/// The buffers at bindings 0 to 3, which every tile reads.
 #[derive(Debug)]
 struct Uniforms {
     view: wgpu::Buffer,
@@ -145,13 +144,13 @@ impl Renderer {
     pub fn new(gpu: &Gpu, scene: &SceneModule) -> Result<Self, Error> {
         Ok(Self {
             gpu: gpu.clone(),
-            shader: load(gpu, &scene.module)?,
-            format: scene.format,
+            shader: shader::load(gpu, &scene.module, &scene.info, scene.tier)?,
+            format: scene.tier.precision.format(),
             uniforms: Uniforms {
                 view: buffers::uniform(gpu, "view", size_of::<ViewUniform>())?,
                 params: buffers::uniform(gpu, "params", size_of::<[f32; MAX_PARAMS]>())?,
                 settings: buffers::uniform(gpu, "settings", scene.settings_size.max(16))?,
-                wide: buffers::uniform(gpu, "wide", size_of::<WideUniform>())?,
+                wide: buffers::wide(gpu)?,
             },
             compute: None,
             fragment: None,
@@ -264,7 +263,7 @@ impl Renderer {
     fn upload(&self, frame: &Frame) -> Result<(), Error> {
         let View { center, height } = frame.view;
         let pixel = height / f64::from(frame.size.height);
-        let wide = WideUniform::new(self.format, center, frame.time, pixel, frame.params);
+        let wide = WideWords::new(self.format, center, frame.time, pixel, frame.params);
         self.gpu.guarded("upload", || {
             let queue = self.gpu.queue();
             let params = uniforms::params(frame.params);
@@ -326,13 +325,13 @@ impl Uniforms {
         }
     }
 
-    /// Bindings 0, 1, 2 and 4.
+    /// Bindings 0 to 3.
     fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 4] {
         let buffers = [
             (0, &self.view),
             (1, &self.params),
             (2, &self.settings),
-            (4, &self.wide),
+            (3, &self.wide),
         ];
         buffers.map(|(binding, buffer)| wgpu::BindGroupEntry {
             binding,
@@ -361,24 +360,16 @@ struct Recorded {
     stride: usize,
 }
 
-/// Hands a validated module to the device.
-pub(crate) fn load(gpu: &Gpu, module: &Module) -> Result<wgpu::ShaderModule, Error> {
-    gpu.guarded("loading the shader", || {
-        gpu.device()
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("formula"),
-                source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module.clone())),
-            })
-    })
-}
-
-/// Layout of bindings 0, 1, 2 and 4.
+/// Layout of bindings 0 to 3, the last of them storage. Decorated modules need numbers without gaps.
 fn uniform_layout(visibility: wgpu::ShaderStages) -> [wgpu::BindGroupLayoutEntry; 4] {
-    [0, 1, 2, 4].map(|binding| wgpu::BindGroupLayoutEntry {
+    [0, 1, 2, 3].map(|binding| wgpu::BindGroupLayoutEntry {
         binding,
         visibility,
         ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
+            ty: match binding {
+                3 => wgpu::BufferBindingType::Storage { read_only: true },
+                _ => wgpu::BufferBindingType::Uniform,
+            },
             has_dynamic_offset: false,
             min_binding_size: None,
         },

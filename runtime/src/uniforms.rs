@@ -48,7 +48,7 @@ pub(crate) struct BatchUniform {
 /// `struct Wide` of the wide libraries: numbers in all digits of the tier, two words each.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct WideUniform {
+pub(crate) struct WideWords {
     /// World coordinates of the view's centre.
     pub center: [[u32; 2]; 2],
     /// Seconds, and world units per pixel.
@@ -57,7 +57,7 @@ pub(crate) struct WideUniform {
     pub params: [[u32; 2]; MAX_PARAMS],
 }
 
-impl WideUniform {
+impl WideWords {
     /// The numbers in a format; parameters beyond those given are zero.
     pub(crate) fn new(
         format: Format,
@@ -110,7 +110,7 @@ mod tests {
         };
         assert_eq!(size("View"), size_of::<ViewUniform>());
         assert_eq!(size("Batch"), size_of::<BatchUniform>());
-        assert_eq!(size("Wide"), size_of::<WideUniform>());
+        assert_eq!(size("Wide"), size_of::<WideWords>());
     }
 
     #[test]

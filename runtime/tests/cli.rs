@@ -298,6 +298,8 @@ fn lists() {
     };
     check(&["functions"], "sin(a)");
     check(&["functions", "--markdown"], "| `sin(a)` |");
+    check(&["functions", "--bounds"], "sin (complex)");
+    check(&["functions", "--json"], "\"unit\": \"ulp of float64\"");
     check(&["scenes"], "levels:");
     check(&["scenes", "--markdown"], "## levels");
     check(&["--help"], "Exit codes:");

@@ -172,15 +172,26 @@ COMPLEX = [
     ("cardinal", "f(z) = (exp(z) - exp(-z))/(2*z)", lambda z: mp.sinh(z)/z, z(1e-30, 20)),
 ]
 
+# what leaves the range of numbers on its way; drawn from a sequence of its own
+RANGE = [
+    ("power-quotient", "f(x: real) = x^9/x^8", lambda x: x, point(size(1e-200, 1e200))),
+    ("power-quotient", "f(x, y) = (x^3 y - 3 x^2)/(2 x^2)", lambda x, y: (x*y - 3)/2, point(size(1e-200, 1e200), size(1e-9, 1e9))),
+    ("power-quotient", "f(x, y) = y*exp(x)/exp(x)", lambda x, y: y, point(size(1, 2000), any_)),
+    ("square-quotient", "f(x, y) = (x^2 - y^2)/(x^2 + y^2)", lambda x, y: (x*x-y*y)/(x*x+y*y), close(1e-170, 1e170, 1e-10, 0.5)),
+    ("square-quotient", "f(x, y) = (x^2 + y^2 - 1)/(x^2 + y^2 + 1)", lambda x, y: (x*x+y*y-1)/(x*x+y*y+1), point(size(1e-5, 1e170), size(10, 1e170))),
+    ("square-quotient", "f(x: real) = 2*x/(x^2 + 1)", lambda x: 2*x/(x*x+1), point(size(1, 1e170))),
+    ("square-quotient", "f(x: real) = (x^2 + 3*x)/(1 + 4*x^2)", lambda x: (x*x+3*x)/(1+4*x*x), point(size(1, 1e170))),
+    ("arg-exp", "f(x, y) = arg(exp(x + y*i))", lambda x, y: mp.atan2(sin(y), cos(y)), point(size(1, 2000), size(1e-3, 1e3))),
+]
+
 
 def text(x):
     return mpmath.nstr(mpf(x), 25)
 
 
-def main():
-    OUT.mkdir(exist_ok=True)
-    with open(OUT / "real.tsv", "w") as out:
-        for rules, formula, f, draw in REAL:
+def write_real(name, formulas):
+    with open(OUT / name, "w") as out:
+        for rules, formula, f, draw in formulas:
             out.write(f"# {rules}\t{formula}\n")
             before = random.getstate()
             if formula in OWN:  # later ones leave the points of the others as they are
@@ -195,6 +206,11 @@ def main():
                 rows += 1
             if formula in OWN:
                 random.setstate(before)
+
+
+def main():
+    OUT.mkdir(exist_ok=True)
+    write_real("real.tsv", REAL)
     with open(OUT / "complex.tsv", "w") as out:
         for rules, formula, f, draw in COMPLEX:
             out.write(f"# {rules}\t{formula}\n")
@@ -202,6 +218,8 @@ def main():
                 arg = draw()
                 value = mpc(f(arg))
                 out.write("\t".join([repr(float(arg.real)), repr(float(arg.imag)), text(value.real), text(value.imag)]) + "\n")
+    random.seed(8)
+    write_real("range.tsv", RANGE)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
 //! What holds for the canonical text of a program.
 
+use std::collections::BTreeMap;
+
 use pullback_compiler::check::is_builtin_function;
-use pullback_compiler::{Program, What, compile};
-use pullback_grammar::token::comments;
+use pullback_compiler::{Compilation, Program, What, compile};
+use pullback_grammar::token::{TokenKind, comments, tokenize};
 use pullback_grammar::{format, parse, same_tree};
 
 /// Points at which formulas are compared; a formula takes as many numbers of them as it needs.
@@ -58,29 +60,7 @@ pub fn evaluation(text: &str) -> Result<(), String> {
         return Ok(());
     };
     let (before, after) = (compile(text), compile(&formatted));
-    let codes = |found: &pullback_compiler::Compilation| {
-        let mut codes: Vec<_> = found.diagnostics.iter().map(|d| d.code).collect();
-        // the note about a pasted `\phi`, and a number too small for others than 0, which the canonical text has no
-        // more, and the warning about a division whose canonical spaces show how it is read
-        let is_moot = |code| {
-            matches!(
-                code,
-                "constant-letter" | "number-too-small" | "ambiguous-division"
-            )
-        };
-        codes.retain(|&code| !is_moot(code));
-        codes.sort_unstable();
-        // a token that stands for two, as the name in a pasted `+=`, has one place and is complained of once
-        codes.dedup();
-        codes
-    };
-    if codes(&before) != codes(&after) {
-        return Err(format!(
-            "{:?} become {:?} of\n{formatted}",
-            codes(&before),
-            codes(&after)
-        ));
-    }
+    codes(text, &before, &formatted, &after)?;
     match (&before.program, &after.program) {
         (Some(before), Some(after)) if values(before) != values(after) => {
             Err(format!("formatting changes values:\n{formatted}"))
@@ -88,6 +68,62 @@ pub fn evaluation(text: &str) -> Result<(), String> {
         (Some(_), None) | (None, Some(_)) => Err("a program on one side alone".into()),
         _ => Ok(()),
     }
+}
+
+/// Says which diagnostics are others than before formatting, if any, by their codes.
+fn codes(
+    text: &str,
+    before: &Compilation,
+    formatted: &str,
+    after: &Compilation,
+) -> Result<(), String> {
+    let counts = |found: &Compilation| {
+        let mut counts = BTreeMap::new();
+        for diagnostic in &found.diagnostics {
+            *counts.entry(diagnostic.code).or_insert(0_usize) += 1;
+        }
+        counts
+    };
+    let (before, after) = (counts(before), counts(after));
+    if before.contains_key("too-many-problems") {
+        // which of them are listed depends on those that spaces answer
+        return Ok(());
+    }
+    let is_converted = words(text) != words(formatted);
+    for code in before.keys().chain(after.keys()) {
+        let count = |counts: &BTreeMap<_, _>| counts.get(code).copied().unwrap_or(0);
+        let (was, is) = (count(&before), count(&after));
+        let holds = match *code {
+            // answered by the canonical spaces, which show how a division is read
+            "ambiguous-division" => is <= was,
+            // about a pasted `\phi`, which is `φ` now
+            "constant-letter" => is == 0,
+            // a pasted token may stand for two, as the name in `a += b`: they have one place, and are complained of
+            // once, but two places where they are written out
+            _ if is_converted => is >= was && (is == 0) == (was == 0),
+            _ => is == was,
+        };
+        if !holds {
+            return Err(format!("{was} {code} become {is} of\n{formatted}"));
+        }
+    }
+    Ok(())
+}
+
+/// The tokens of a text but for those that formatting may leave out: `;`, and a comma before `}`.
+fn words(text: &str) -> Vec<&str> {
+    let tokens = tokenize(text).0;
+    let mut words: Vec<&str> = Vec::with_capacity(tokens.len());
+    for token in tokens
+        .iter()
+        .filter(|token| token.kind != TokenKind::Semicolon)
+    {
+        if token.kind == TokenKind::RBrace && words.last() == Some(&",") {
+            words.pop();
+        }
+        words.push(token.span.text(text));
+    }
+    words
 }
 
 /// The bits of every value and derivative at the points.

@@ -423,7 +423,7 @@ fn spliced(template: &Module, text: &str) -> Module {
     let mut module = SceneModule::splice(
         template,
         &program.pictures()[0].formula,
-        Precision::Accurate,
+        Precision::Accurate.into(),
     )
     .unwrap_or_else(|error| panic!("{text}: {error:?}"));
     naga::compact::compact(&mut module, naga::compact::KeepUnused::No);

@@ -14,6 +14,7 @@ use pullback_compiler::stable::{Phase, RULES, Rewrites, Rule, Stable, stabilise}
 use pullback_compiler::table::Number;
 
 const REAL: &str = include_str!("../data/rewrites/real.tsv");
+const RANGE: &str = include_str!("../data/rewrites/range.tsv");
 const COMPLEX: &str = include_str!("../data/rewrites/complex.tsv");
 
 /// Bits that a result of binary64 has.
@@ -167,7 +168,7 @@ fn measure(case: &Case, results: usize) -> Measured {
 fn rules_gain_and_do_not_lose() {
     let mut seen: BTreeSet<&str> = BTreeSet::new();
     let mut problems = Vec::new();
-    for (table, results) in [(REAL, 1), (COMPLEX, 2)] {
+    for (table, results) in [(REAL, 1), (RANGE, 1), (COMPLEX, 2)] {
         for case in cases(table) {
             let stable = rewritten(case.text, Rewrites::ON, Phase::Late);
             let used: Vec<&str> = stable
@@ -213,7 +214,7 @@ fn the_document_lists_the_rules() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/rewrites.md");
     let head = include_str!("../data/rewrites/head.md");
     let mut gains: BTreeMap<&str, (f64, f64, &str)> = BTreeMap::new();
-    for (table, results) in [(REAL, 1), (COMPLEX, 2)] {
+    for (table, results) in [(REAL, 1), (RANGE, 1), (COMPLEX, 2)] {
         for case in cases(table) {
             let m = measure(&case, results);
             for rule in &case.rules {
@@ -283,7 +284,7 @@ fn no_rule_acts_where_it_must_not() {
             infix(text, &stable)
         );
     }
-    for case in cases(REAL).iter().chain(&cases(COMPLEX)) {
+    for case in [REAL, RANGE, COMPLEX].iter().flat_map(|t| cases(t)) {
         let stable = rewritten(case.text, Rewrites::OFF, Phase::Late);
         assert!(stable.applied.is_empty(), "{}", case.text);
     }
@@ -309,7 +310,7 @@ fn special_values_stay() {
         f64::NAN,
     ];
     let mut problems = Vec::new();
-    for case in cases(REAL) {
+    for case in cases(REAL).into_iter().chain(cases(RANGE)) {
         let written = formula(case.text);
         let stable = rewritten(case.text, Rewrites::ON, Phase::Late);
         let mut machines = [

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Function, Module, ScalarKind, Statement, TypeInner, VectorSize};
 use pullback_compiler::link::{Sources, is_stub};
-use pullback_compiler::lower::Format;
+use pullback_compiler::lower::Tier;
 use pullback_compiler::scene::{Scene, SettingKind, Space, scenes};
 use pullback_tests::corpus::{Source, files, read, root};
 use pullback_tests::units::{FIELD_STUBS, evaluations, finite_differences};
@@ -46,7 +46,7 @@ fn every_template_is_valid_by_itself() {
 
 #[test]
 fn the_libraries_are_valid_and_whole() {
-    let sources = Sources::get(Format::Single);
+    let sources = Sources::get(Tier::default());
     for (name, module, folder) in [
         ("the number library", sources.math, "math"),
         ("the drawing library", sources.shared, "shared"),
@@ -109,7 +109,7 @@ fn signature(module: &Module, function: &Function) -> String {
 
 #[test]
 fn stubs_are_of_the_compiler_or_have_their_twin_in_a_library() {
-    let sources = Sources::get(Format::Single);
+    let sources = Sources::get(Tier::default());
     let mut known: BTreeMap<String, String> = BTreeMap::new();
     for module in [sources.math, sources.shared] {
         for (_, function) in module.functions.iter() {
@@ -187,8 +187,11 @@ fn demands_have_the_contract_s_signatures() {
 #[test]
 fn no_hardware_derivatives_no_hidden_state() {
     let mut modules = templates();
-    modules.push(("math".into(), Sources::get(Format::Single).math.clone()));
-    modules.push(("shared".into(), Sources::get(Format::Single).shared.clone()));
+    modules.push(("math".into(), Sources::get(Tier::default()).math.clone()));
+    modules.push((
+        "shared".into(),
+        Sources::get(Tier::default()).shared.clone(),
+    ));
     for (name, module) in modules {
         let entries = module.entry_points.iter().map(|e| &e.function);
         for function in module.functions.iter().map(|(_, f)| f).chain(entries) {
@@ -362,7 +365,7 @@ fn members(module: &Module, name: &str) -> Option<Vec<(String, TypeInner, u32)>>
 
 #[test]
 fn the_view_is_the_same_everywhere() {
-    let entry = members(&Sources::get(Format::Single).entry.clone(), "View")
+    let entry = members(&Sources::get(Tier::default()).entry.clone(), "View")
         .expect("entry.wgsl has a View");
     assert_eq!(entry.len(), 8);
     for scene in scenes() {

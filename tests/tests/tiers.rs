@@ -3,9 +3,12 @@
 
 use std::sync::OnceLock;
 
-use pullback_compiler::lower::Precision;
-use pullback_compiler::{EmitWhat, Target, compile};
-use pullback_runtime::{AdapterChoice, Gpu};
+use pullback_compiler::lower::{Exactness, Precision, Tier};
+use pullback_compiler::{EmitWhat, Program, Target, What, compile};
+use pullback_runtime::evaluate::Surroundings;
+use pullback_runtime::{
+    AdapterChoice, Capabilities, Frame, Gpu, GpuEvaluator, Pipeline, Renderer, Size, View,
+};
 use pullback_tests::corpus::gallery;
 use pullback_tests::deep_zoom::{FIELDS, last_true_width};
 
@@ -45,6 +48,106 @@ fn functions_are_emitted_in_every_tier() {
     assert!(emit(Target::Spirv, Precision::Double).is_ok());
     let problems = emit(Target::Msl, Precision::Double).expect_err("no doubles in MSL");
     assert_eq!(problems[0].code, "wrong-demand");
+}
+
+/// The tiers of pairs that are exact on the software adapter, the one that is exact everywhere first.
+fn exact_tiers() -> Vec<Tier> {
+    let found = Capabilities::of(software()).expect("findings");
+    let exact = Exactness::ALL
+        .into_iter()
+        .filter(|&form| found.is_exact(form));
+    exact
+        .map(|exactness| Tier {
+            precision: Precision::Extended,
+            exactness,
+        })
+        .collect()
+}
+
+#[test]
+fn extended_takes_the_fastest_exact_form() {
+    let tier = Capabilities::tier(software(), Precision::Extended).expect("a tier");
+    let exact = exact_tiers();
+    assert_eq!(exact[0].exactness, Exactness::Dekker);
+    assert!(exact.contains(&tier), "{tier:?}");
+    assert!(tier.is_decorated() || exact.iter().all(|exact| !exact.is_decorated()));
+}
+
+/// Every form of the exact steps gives the same numbers, but for how roundings of low words fall.
+#[test]
+fn exact_forms_agree() {
+    let program = compile("f(x, y) = exp(x/50) sin(y) + x^3 - y^2/(x - 7.3)")
+        .program
+        .expect("it compiles");
+    let rows: Vec<f64> = (0..2000)
+        .map(|k| f64::from(k % 101) * 0.37 - 18.1 + f64::from(k) * 1e-9)
+        .collect();
+    let values: Vec<Vec<f64>> = exact_tiers()
+        .into_iter()
+        .map(|tier| evaluate(&program, tier, &rows))
+        .collect();
+    assert!(values.len() >= 2, "the software adapter takes decorations");
+    // terms are up to 7000, and so are the roundings
+    let allowed = 8.0 * 7000.0 * 2f64.powi(-48);
+    for other in &values[1..] {
+        for (a, b) in values[0].iter().zip(other) {
+            assert!((a - b).abs() <= allowed, "{a} and {b}");
+        }
+    }
+    // not what rounding to single precision would give
+    assert!(values[0].iter().any(|&v| v != f64::from(v as f32)));
+}
+
+fn evaluate(program: &Program, tier: Tier, rows: &[f64]) -> Vec<f64> {
+    let module = program.eval_module(0, What::Value, tier).expect("a module");
+    let mut evaluator = GpuEvaluator::new(software(), &module).expect("an evaluator");
+    let mut out = Vec::new();
+    evaluator
+        .eval_exactly(Surroundings::default(), rows.len() / 2, rows, &mut out)
+        .expect("values");
+    out
+}
+
+/// Decorated shaders go past wgpu, so both stages and all bindings are tried.
+#[test]
+fn pictures_are_the_same_in_every_exact_form_and_stage() {
+    let program = compile("param a = 0.3\nf(z) = z^3 - 1 + a z")
+        .program
+        .expect("it compiles");
+    let mut pictures = Vec::new();
+    for tier in exact_tiers() {
+        let scene = program.scene_module(0, tier).expect("a scene");
+        let settings = scene.pack_settings(&program.pictures()[0].settings);
+        let mut renderer = Renderer::new(software(), &scene).expect("a renderer");
+        for pipeline in [Pipeline::Compute, Pipeline::Fragment] {
+            let frame = Frame {
+                view: View {
+                    center: [0.1, -0.2],
+                    height: 3.0,
+                },
+                params: &[0.7],
+                settings: &settings,
+                size: Size {
+                    width: 61,
+                    height: 47,
+                },
+                samples: 1,
+                time: 0.0,
+                pipeline,
+            };
+            let mut pixels = Vec::new();
+            renderer.render(&frame, &mut pixels).expect("a picture");
+            pictures.push(pixels);
+        }
+    }
+    let first = &pictures[0];
+    let colours: std::collections::BTreeSet<_> = first.as_chunks::<4>().0.iter().collect();
+    assert!(
+        colours.len() > 100,
+        "a picture of {} colours",
+        colours.len()
+    );
+    assert!(pictures.iter().all(|picture| picture == first));
 }
 
 /// A formula keeps the centre of its view in all digits of the tier: the widths down to which the pictures of

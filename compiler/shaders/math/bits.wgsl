@@ -14,6 +14,12 @@ fn hidden_zero(seed: f32) -> u32 {
     return (odd * odd) & 4u;
 }
 
+/// The same of two numbers, one of which may be a constant of the formula, or both the same: of what a compiler knows, it
+/// knows the zero, too.
+fn hidden_zero_of(a: f32, b: f32) -> u32 {
+    return hidden_zero(bitcast<f32>((bitcast<u32>(a) << 1u) ^ bitcast<u32>(b)));
+}
+
 /// v itself, cut off from the expression that gave it.
 fn opaque(v: f32, zero: u32) -> f32 {
     return bitcast<f32>(bitcast<u32>(v) ^ zero);

@@ -51,7 +51,7 @@ fn complex_pow(z: vec2f, w: vec2f) -> vec2f {
 
 /// z^(w + c) for a small whole real c, the sum exact in two floats.
 fn complex_pow_shift(z: vec2f, w: vec2f, c: vec2f) -> vec2f {
-    let s = two_sum(w.x, c.x, hidden_zero(w.x));
+    let s = two_sum(w.x, c.x, hidden_zero_of(z.x, w.x));
     if !is_finite(w.x) || s.y == 0.0 {
         return complex_pow(z, vec2f(s.x, w.y));
     }
@@ -161,7 +161,7 @@ const QUARTER_TURN = vec2f(1.5707963705062866, -4.371138828673793e-08);
 /// z^(w + low) e^shift for finite z ≠ 0, all exponents carried in two floats, quarter turns apart: integer powers of
 /// numbers near the axes stay near them.
 fn power_and_exp(z: vec2f, w: vec2f, low: f32, shift: vec2f) -> vec2f {
-    let zero = hidden_zero(z.x);
+    let zero = hidden_zero_of(z.x + z.y, w.x + w.y);
     let modulus = log2_modulus_pair(z, zero);
     let phase = phase_pair(z, zero);
     // log2 |result| = w.x log2|z| + (shift.x - w.y arg z) / log 2

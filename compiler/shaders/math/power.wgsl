@@ -37,7 +37,7 @@ fn exp2_pair(a: f32, b: f32, zero: u32) -> f32 {
 
 /// x^(y + y2) for a positive finite x and finite y; y2 is a small correction of y.
 fn power_of_positive(x: f32, y: f32, y2: f32) -> f32 {
-    let zero = hidden_zero(x);
+    let zero = hidden_zero_of(x, y);
     let l = log2_pair(x, zero);
     if magnitude(y) > 1e12 {
         let direction = y * l.x; // the nearest powers to 1 are those of 1 ± 2^-24
@@ -81,7 +81,7 @@ fn real_pow(x: f32, y: f32) -> f32 {
 /// x^(y + c) for a small whole c, the sum exact in two floats.
 /// Error: 3 ulp over the whole range.
 fn real_pow_shift(x: f32, y: f32, c: f32) -> f32 {
-    let s = two_sum(y, c, hidden_zero(y));
+    let s = two_sum(y, c, hidden_zero_of(x, y));
     let a = magnitude(x);
     if !is_finite(y) || s.y == 0.0 || a == 0.0 || !is_finite(x) {
         return real_pow(x, s.x);
@@ -91,6 +91,30 @@ fn real_pow_shift(x: f32, y: f32, c: f32) -> f32 {
     }
     let odd = is_odd(y) != is_odd(c);
     return flip_sign(power_of_positive(a, s.x, s.y), select(0u, sign_bit(x), odd));
+}
+
+/// f x^(y + c) for a small whole c, where the power alone may leave the range: the derivative y x^(y-1).
+/// Error: 2 ulp over the whole range.
+fn real_scaled_power(x: f32, y: f32, c: f32, f: f32) -> f32 {
+    let zero = hidden_zero_of(x, y);
+    let s = two_sum(y, c, zero);
+    let a = magnitude(x);
+    let size = magnitude(f);
+    let plain = !(size > 1.2e-38) || is_infinite(f) || magnitude(y) > 1e12 || is_nan(y);
+    if plain || a == 0.0 || !is_finite(x) || (sign_is_set(x) && floor(y) != y) {
+        return f * real_pow_shift(x, y, c);
+    }
+    let l = log2_pair(a, zero);
+    let p = two_product(s.x, l.x, zero);
+    let low = p.y + (s.x * l.y + s.y * l.x);
+    let e = i32(bitcast<u32>(size) >> 23u) - 127;
+    let m = bitcast<f32>((bitcast<u32>(f) & 0x807fffffu) | 0x3f000000u); // f = m 2^(e + 1)
+    let exponent = clamp(p.x, -320.0, 320.0);
+    let n = floor(exponent + 0.5);
+    let power = exp2_polynomial(opaque(exponent - n, zero) + select(0.0, low, exponent == p.x));
+    let r = times_wide_power_of_two(opaque(m * power, zero), clamp(i32(n) + e + 1, -360, 360));
+    let odd = is_odd(y) != is_odd(c);
+    return flip_sign(r, select(0u, sign_bit(x), odd));
 }
 
 /// x^n for every integer n: up to 5 factors by multiplication, more by logarithms in two floats. x^0 = 1.

@@ -25,13 +25,16 @@ fn real_acosh_slope(x: f32) -> f32 {
     return 1.0 / (sqrt(x - 1.0) * sqrt(x + 1.0));
 }
 
-/// x/r for a coordinate x of a point at the distance r from the origin, and 0 there.
+/// x/r for r = hypot(x, y), and 0 at the origin. Error: 2.5 ulp.
 fn real_direction(x: f32, y: f32, r: f32) -> f32 {
-    return select(x / r, 0.0, r == 0.0);
+    return real_direction3(x, y, 0.0, r);
 }
 
-/// x/r in space.
+/// x/r for r = |(x, y, z)|, and 0 at the origin. Where r overflows, that of a quarter of the point. Error: 2.5 ulp.
 fn real_direction3(x: f32, y: f32, z: f32, r: f32) -> f32 {
+    if is_infinite(r) && is_finite(x) && is_finite(y) && is_finite(z) {
+        return 0.25 * x / real_hypot3(0.25 * x, 0.25 * y, 0.25 * z);
+    }
     return select(x / r, 0.0, r == 0.0);
 }
 

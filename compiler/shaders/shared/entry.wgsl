@@ -14,7 +14,7 @@ struct View {
 }
 
 @group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(3) var<storage, read_write> image: array<u32>;
+@group(0) @binding(4) var<storage, read_write> image: array<u32>;
 
 // The scene's picture: linear rgb and alpha at a point of the whole image.
 fn shade(pixel: vec2f) -> vec4f { return vec4f(); }

@@ -120,27 +120,64 @@ fn complex_exponent(z: Complex) -> i32 {
     return exponent_of(a);
 }
 
-/// a b + c d. Where less than half of a b is left, the products are taken exactly, else plainly.
-/// Error: 4 u.
-fn cross_sum(a: real, b: real, c: real, d: real) -> real {
-    let ab = real_mul(a, b);
-    let sum = real_add(ab, real_mul(c, d));
-    if real_less(twice(real_abs(sum)), real_abs(ab)) && is_finite(ab) {
-        return sum_of_products(a, b, c, d);
+/// z w, or what is left of it where terms cancel.
+fn plain_product(z: Complex, w: Complex) -> Complex {
+    return Complex(
+        real_sub(real_mul(z.re, w.re), real_mul(z.im, w.im)),
+        real_add(real_mul(z.re, w.im), real_mul(z.im, w.re)),
+    );
+}
+
+/// Whether less than half of the terms of a component of z w = p is left.
+fn product_cancels(z: Complex, w: Complex, p: Complex) -> bool {
+    return real_less(twice(real_abs(p.re)), real_abs(real_mul(z.re, w.re)))
+        || real_less(twice(real_abs(p.im)), real_abs(real_mul(z.re, w.im)));
+}
+
+/// z w with about one rounding each component, however much cancels. One component after the other: shader compilers
+/// inline the sum, which is long, wherever it is written.
+fn exact_product(z: Complex, w: Complex) -> Complex {
+    var p = z;
+    for (var k = 0u; k < 2u; k++) {
+        let across = k == 1u;
+        let v = choose(across, z.im, real_neg(z.im));
+        let part = sum_of_products(z.re, choose(across, w.im, w.re), v, choose(across, w.re, w.im), num(0.0));
+        p = Complex(choose(across, p.re, part), part);
     }
-    return sum;
+    return p;
 }
 
 /// z w; an infinite factor gives an infinite product (C99 G.5.1). Error: 4 u each component, however much cancels.
 fn complex_mul(z: Complex, w: Complex) -> Complex {
-    let p = Complex(
-        cross_sum(z.re, w.re, real_neg(z.im), w.im),
-        cross_sum(z.re, w.im, z.im, w.re),
-    );
-    if complex_has_nan(p) {
-        return complex_mul_special(z, w, p);
+    let p = plain_product(z, w);
+    let lost = complex_has_nan(p);
+    if !lost && !product_cancels(z, w, p) {
+        return p;
     }
-    return p;
+    var a = z;
+    var b = w;
+    var e = 0;
+    let infinite = complex_is_infinite(z) || complex_is_infinite(w);
+    if lost {
+        if infinite && !(is_nan(p.re) && is_nan(p.im)) || !infinite && (complex_has_nan(z) || complex_has_nan(w)) {
+            return p;
+        }
+        if infinite {
+            a = complex_boxed(z);
+            b = complex_boxed(w);
+        }
+        // in smaller numbers, whose products do not overflow
+        let f = complex_exponent(a);
+        let g = complex_exponent(b);
+        a = complex_scale(a, -f);
+        b = complex_scale(b, -g);
+        e = f + g;
+    }
+    let q = exact_product(a, b);
+    if infinite {
+        return complex_mul_real(q, make_infinity(num(1.0)));
+    }
+    return complex_scale(q, e);
 }
 
 /// Infinite components become ±1, others ±0 (C99 G.5.1).
@@ -151,60 +188,22 @@ fn complex_box(z: Complex) -> Complex {
     );
 }
 
-/// NaN components become 0.
-fn complex_without_nan(z: Complex) -> Complex {
-    return Complex(choose(is_nan(z.re), num(0.0), z.re), choose(is_nan(z.im), num(0.0), z.im));
+/// z as a factor of a product with an infinite one: without NaN, and boxed if it is infinite itself.
+fn complex_boxed(z: Complex) -> Complex {
+    let v = complex_choose(complex_is_infinite(z), complex_box(z), z);
+    return Complex(choose(is_nan(v.re), num(0.0), v.re), choose(is_nan(v.im), num(0.0), v.im));
 }
 
-fn complex_mul_special(z: Complex, w: Complex, plain: Complex) -> Complex {
-    let infinite = complex_is_infinite(z) || complex_is_infinite(w);
-    if !infinite && (complex_has_nan(z) || complex_has_nan(w)) {
-        return plain;
-    }
-    if !infinite { // the products overflowed: in smaller numbers
-        let e = complex_exponent(z);
-        let f = complex_exponent(w);
-        let c = complex_scale(z, -e);
-        let d = complex_scale(w, -f);
-        return Complex(
-            scale(cross_sum(c.re, d.re, real_neg(c.im), d.im), e + f),
-            scale(cross_sum(c.re, d.im, c.im, d.re), e + f),
-        );
-    }
-    if !(is_nan(plain.re) && is_nan(plain.im)) {
-        return plain;
-    }
-    var a = z;
-    var b = w;
-    if complex_is_infinite(a) {
-        a = complex_box(a);
-        b = complex_without_nan(b);
-    }
-    if complex_is_infinite(b) {
-        b = complex_box(b);
-        a = complex_without_nan(a);
-    }
-    a = complex_without_nan(a);
-    b = complex_without_nan(b);
-    a = complex_scale(a, -complex_exponent(a));
-    b = complex_scale(b, -complex_exponent(b));
-    let infinity = make_infinity(num(1.0));
-    return Complex(
-        real_mul(infinity, cross_sum(a.re, b.re, real_neg(a.im), b.im)),
-        real_mul(infinity, cross_sum(a.re, b.im, a.im, b.re)),
-    );
-}
-
-/// z² = (x - y)(x + y) + 2 i x y. Error: 3 u each component.
+/// z² = (x - y)(x + y) + 2 i x y, of halves, whose sums do not overflow. Error: 3 u each component.
 fn complex_square(z: Complex) -> Complex {
-    let p = Complex(
-        real_mul(real_sub(z.re, z.im), real_add(z.re, z.im)),
-        twice(real_mul(z.re, z.im)),
-    );
-    if complex_has_nan(p) {
-        return complex_mul(z, z);
+    let x = scale(z.re, -1);
+    let y = scale(z.im, -1);
+    let re = scale(real_mul(real_sub(x, y), real_add(x, y)), 2);
+    let im = twice(real_mul(z.re, z.im));
+    if is_nan(re) && is_nan(im) && complex_is_infinite(z) { // ∞ + i NaN
+        return Complex(make_infinity(num(select(-1.0, 1.0, is_infinite(z.re)))), im);
     }
-    return p;
+    return Complex(re, im);
 }
 
 /// z / w for |w| ≠ 0: both scaled by powers of two, special values after C99 G.5.1.
@@ -213,55 +212,57 @@ fn complex_div(z: Complex, w: Complex) -> Complex {
     let ez = complex_exponent(z);
     let ew = complex_exponent(w);
     let a = complex_scale(z, 30 - ez);
-    let b = complex_scale(w, 30 - ew);
-    let norm = real_add(real_square(b.re), real_square(b.im));
-    let q = Complex(
-        real_div(cross_sum(a.re, b.re, a.im, b.im), norm),
-        real_div(cross_sum(a.im, b.re, real_neg(a.re), b.im), norm),
-    );
-    if complex_has_nan(q) || is_zero(norm) {
+    let b = complex_conj(complex_scale(w, 30 - ew));
+    // of |w| about 1, so that a small component of the quotient keeps its digits
+    let norm = scale(real_add(real_square(b.re), real_square(b.im)), -60);
+    var p = plain_product(a, b);
+    if complex_has_nan(p) || is_zero(norm) {
         return complex_div_special(z, w);
     }
-    return complex_scale(q, ez - ew);
+    if product_cancels(a, b, p) {
+        p = exact_product(a, b);
+    }
+    return complex_scale(Complex(real_div(p.re, norm), real_div(p.im, norm)), ez - ew - 60);
 }
 
 fn complex_div_special(z: Complex, w: Complex) -> Complex {
     if complex_is_zero(w) {
-        let infinity = make_infinity(w.re);
-        return Complex(real_mul(infinity, z.re), real_mul(infinity, z.im));
+        return complex_mul_real(z, make_infinity(w.re));
     }
-    if complex_is_infinite(z) && complex_is_finite(w) {
-        let a = complex_box(z);
-        let b = complex_scale(w, -complex_exponent(w));
-        let infinity = make_infinity(num(1.0));
-        return Complex(
-            real_mul(infinity, real_add(real_mul(a.re, b.re), real_mul(a.im, b.im))),
-            real_mul(infinity, real_sub(real_mul(a.im, b.re), real_mul(a.re, b.im))),
-        );
+    let far = complex_is_infinite(w);
+    if complex_is_finite(z) == complex_is_finite(w) || !(far || complex_is_infinite(z)) {
+        return complex_nan(z.re);
     }
-    if complex_is_infinite(w) && complex_is_finite(z) {
-        let b = complex_box(w);
-        return Complex(
-            signed_zero(real_add(real_mul(z.re, b.re), real_mul(z.im, b.im))),
-            signed_zero(real_sub(real_mul(z.im, b.re), real_mul(z.re, b.im))),
-        );
-    }
-    return complex_nan(z.re);
+    // the quotient of an infinity is infinite, that by an infinity 0
+    let a = complex_choose(far, z, complex_box(z));
+    let b = complex_choose(far, complex_box(w), complex_scale(w, -complex_exponent(w)));
+    let p = plain_product(a, complex_conj(b));
+    return Complex(
+        choose(far, signed_zero(p.re), real_mul(make_infinity(num(1.0)), p.re)),
+        choose(far, signed_zero(p.im), real_mul(make_infinity(num(1.0)), p.im)),
+    );
 }
 
-/// 1 / z = z̄ / |z|², of z scaled by a power of two: below the real axis for +0, which the quotient 1 / z loses.
-/// Error: 4 u each component.
+/// 1 / z of z scaled by a power of two: with r = y/x, |r| ≤ 1, it is (1 - i r) / (x + y r), in which nothing cancels (R. L.
+/// Smith, CACM 5, 1962). Below the real axis for +0, which the quotient 1 / z loses.
+/// Error: 3 u each component.
 fn complex_inverse(z: Complex) -> Complex {
     if complex_is_infinite(z) {
         return Complex(signed_zero(z.re), signed_zero(real_neg(z.im)));
     }
-    if complex_is_zero(z) || complex_has_nan(z) {
-        return complex_div_special(complex_of_real(num(1.0)), z);
+    if complex_is_zero(z) {
+        return Complex(make_infinity(z.re), make_nan(z.im));
     }
-    let n = 30 - complex_exponent(z);
-    let a = complex_scale(z, n);
-    let norm = real_add(real_square(a.re), real_square(a.im));
-    return complex_scale(Complex(real_div(a.re, norm), real_div(real_neg(a.im), norm)), n);
+    let e = complex_exponent(z);
+    let steep = real_less(real_abs(z.re), real_abs(z.im));
+    let large = scale(choose(steep, z.im, z.re), -e);
+    let small = choose(steep, z.re, z.im);
+    // 2^40 times too large, so that a small component keeps its digits
+    let r = real_div(scale(small, 40 - e), large);
+    let d = real_add(large, real_mul(scale(small, -e), scale(r, -40)));
+    let along = scale(real_div(num(1.0), d), -e);
+    let across = scale(real_div(r, d), -40 - e);
+    return Complex(choose(steep, across, along), real_neg(choose(steep, along, across)));
 }
 
 /// |z| without spurious overflow.
@@ -274,12 +275,6 @@ fn complex_abs(z: Complex) -> real {
 /// Error: that of `real_atan2`.
 fn complex_arg(z: Complex) -> real {
     return real_atan2(z.im, z.re);
-}
-
-/// A number as value 2^exponent.
-struct Scaled {
-    value: real,
-    exponent: i32,
 }
 
 /// log 2 to 120 bits.
@@ -296,55 +291,23 @@ fn long_neg(a: Long) -> Long {
     return Long(real_neg(a.hi), real_neg(a.lo));
 }
 
-/// e^x of a long x as value 2^exponent with the value in [0.7, 1.42], so that products with it overflow only where
-/// they must. Beyond ±3000 as there.
-fn exp_apart(x: Long) -> Scaled {
-    let size = real_to_f32(x.hi);
-    let n = i32(floor(clamp(size, -3000.0, 3000.0) * 1.442695 + 0.5));
-    if abs(size) > 3000.0 {
-        return Scaled(num(1.0), n);
-    }
-    let rest = long_add(x, long_mul(long_neg(long_log2()), real_from_i32(n)));
-    return Scaled(real_exp(long_to_real(rest)), n);
-}
-
 /// e^z; e^x may overflow where e^x cos y does not.
 /// Error: 6 u each component.
 fn complex_exp(z: Complex) -> Complex {
-    if is_zero(z.im) {
-        return Complex(real_exp(z.re), z.im);
-    }
-    if !complex_is_finite(z) {
-        return complex_exp_special(z);
-    }
     let wave = real_sincos(z.im);
-    let r = real_exp(z.re);
-    if is_infinite(r) || is_zero(r) {
-        let s = exp_apart(Long(z.re, num(0.0)));
-        return Complex(
-            scale(real_mul(s.value, wave.second), s.exponent),
-            scale(real_mul(s.value, wave.first), s.exponent),
-        );
+    let bounded = is_finite(z.im);
+    if is_nan(z.re) || !bounded && is_finite(z.re) {
+        return Complex(make_nan(z.re), choose(is_zero(z.im), z.im, make_nan(z.im)));
     }
-    return Complex(real_mul(r, wave.second), real_mul(r, wave.first));
-}
-
-fn complex_exp_special(z: Complex) -> Complex {
-    if is_infinite(z.re) && sign_is_set(z.re) {
-        if !is_finite(z.im) {
-            return complex_of_real(num(0.0));
-        }
-        let wave = real_sincos(z.im);
-        return Complex(signed_zero(wave.second), signed_zero(wave.first));
+    if !bounded { // e^-∞ is 0, e^∞ infinite
+        let fades = sign_is_set(z.re);
+        return Complex(choose(fades, num(0.0), z.re), choose(fades, num(0.0), make_nan(z.im)));
     }
-    if is_infinite(z.re) {
-        if !is_finite(z.im) {
-            return Complex(z.re, make_nan(z.im));
-        }
-        let wave = real_sincos(z.im);
-        return Complex(make_infinity(wave.second), make_infinity(wave.first));
-    }
-    return complex_nan(z.re);
+    let s = exp_of_parts(z.re);
+    return Complex(
+        scale(real_mul(s.value, wave.second), s.exponent),
+        choose(is_zero(z.im), z.im, scale(real_mul(s.value, wave.first), s.exponent)),
+    );
 }
 
 /// log z, cut along the negative axis. The real part keeps its relative accuracy near |z| = 1.
@@ -356,34 +319,41 @@ fn complex_log(z: Complex) -> Complex {
 /// log √(x² + y²). Near the unit circle x² + y² - 1 = 2 d + d² + y² with the exact d = x - 1, summed without loss
 /// (Kahan 1987; Hull, Fairgrieve, Tang 1994).
 fn log_hypot(x: real, y: real) -> real {
-    if is_infinite(x) || is_infinite(y) {
-        return make_infinity(num(1.0));
-    }
-    if is_nan(x) || is_nan(y) {
-        return make_nan(x);
-    }
     let a = real_max(real_abs(x), real_abs(y));
     let b = real_min(real_abs(x), real_abs(y));
+    if is_nan(x) || is_nan(y) {
+        return choose(is_infinite(a), a, make_nan(x));
+    }
+    return log_of_sides(a, b, add32(a, -1.0), is_near_circle(a, b));
+}
+
+/// Whether log √(a² + b²) cancels.
+fn is_near_circle(a: real, b: real) -> bool {
+    let norm = real_add(real_square(a), real_square(b));
+    return is_above(a, 0.5) && is_below(a, 1.5) && is_above(norm, 0.5) && is_below(norm, 2.0);
+}
+
+/// log √(a² + b²) for a ≥ b ≥ 0; where it is near, a = 1 + d without error.
+fn log_of_sides(a: real, b: real, d: real, near: bool) -> real {
+    if is_infinite(a) {
+        return a;
+    }
     if is_zero(a) {
         return make_infinity(num(-1.0));
     }
-    if is_above(a, 0.5) && is_below(a, 1.5) {
-        let norm = real_add(real_square(a), real_square(b));
-        if is_above(norm, 0.5) && is_below(norm, 2.0) {
-            let d = real_sub(a, num(1.0));
-            let dd = long_product(d, d);
-            let bb = long_product(b, b);
-            let s = long_sum(twice(d), bb.hi);
-            let t = long_sum(s.hi, dd.hi);
-            let low = long_add(long_sum(s.lo, t.lo), long_sum(dd.lo, bb.lo));
-            return mul32(real_log1p(long_to_real(long_add_real(low, t.hi))), 0.5);
-        }
+    var e = 0; // a² + b² = 4^e size
+    var t = num(0.0);
+    var size = num(1.0);
+    if near {
+        t = sum_of_products(d, d, b, b, twice(d));
+        size = add32(t, 1.0);
+    } else {
+        e = exponent_of(a);
+        size = real_add(real_square(scale(a, -e)), real_square(scale(b, -e)));
     }
-    let e = exponent_of(a);
-    let v = scale(a, -e);
-    let w = scale(b, -e);
-    let l = mul32(real_log(real_add(real_square(v), real_square(w))), 0.5);
-    return real_add(mul32(lit(0.6931472, -1.9046542e-09, -8.783184e-17), f32(e)), l);
+    let split = split_logarithm(size);
+    let f = choose(near, split_beside_one(t, split.exponent), split.fraction);
+    return scale(log_of_split(split.exponent + 2 * e, f), -1);
 }
 
 /// The root with positive real part, cut along the negative axis (Kahan 1987; C99 G.6.4.2).
@@ -412,40 +382,64 @@ fn complex_sqrt(z: Complex) -> Complex {
     let a = scale(real_abs(z.re), -2 * half);
     let b = scale(real_abs(z.im), -2 * half);
     let r = real_sqrt(real_add(real_square(a), real_square(b)));
-    let t = scale(real_sqrt(mul32(real_add(a, r), 0.5)), half);
-    let u = real_div(mul32(real_abs(z.im), 0.5), t); // not of the scaled one, which may have underflowed
+    let root = real_sqrt(mul32(real_add(a, r), 0.5));
+    let t = scale(root, half);
+    // the numerator 2^79 times too large, so that a small component keeps its digits
+    let u = scale(real_div(scale(real_abs(z.im), 79 - 2 * half), root), half - 80);
     let left = sign_is_set(z.re);
     return Complex(choose(left, u, t), with_sign(choose(left, t, u), z.im));
 }
 
-/// e^z - 1 = expm1 x cos y - 2 sin²(y/2) + i e^x sin y: the real part has its own digits but where both of its terms have
+/// e^z - 1 = expm1 x cos y - (1 - cos y) + i e^x sin y: the real part has its own digits but where both of its terms have
 /// lost them.
 fn complex_expm1(z: Complex) -> Complex {
-    if !is_finite(z.re) || !is_finite(z.im) || is_above(z.re, 40.0) {
-        let e = complex_exp(z);
-        return Complex(add32(e.re, -1.0), e.im);
-    }
-    if is_zero(z.im) {
-        return Complex(real_expm1(z.re), z.im);
+    let flat = is_zero(z.im);
+    if is_nan(z.re) || !is_finite(z.im) {
+        let known = is_infinite(z.re); // as of e^z: -1 or infinite
+        let re = choose(sign_is_set(z.re), num(-1.0), z.re);
+        let im = choose(known && sign_is_set(z.re), num(0.0), make_nan(z.im));
+        return Complex(choose(known, re, make_nan(z.re)), choose(flat, z.im, im));
     }
     let wave = real_sincos(z.im);
-    let half = real_sin(scale(z.im, -1));
-    let down = scale(half, 1);
-    let re = sum_of_products(real_expm1(z.re), wave.second, real_neg(down), half);
-    let im = with_sign(real_mul(real_exp(z.re), wave.first), wave.first);
-    return Complex(choose(is_zero(z.re), real_neg(real_mul(down, half)), re), im);
+    let s = split_exponent(clamped(z.re, EXP_END));
+    let v = expm1_polynomial(s.rest);
+    if s.count > 60 {
+        let e = add32(v, 1.0);
+        return Complex(
+            scale(real_mul(e, wave.second), s.count),
+            choose(flat, z.im, scale(real_mul(e, wave.first), s.count)),
+        );
+    }
+    let growth = choose(is_below(real_abs(z.re), 1e-17), z.re, expm1_of_parts(v, s.count));
+    // 1 - cos y = sin² y / (1 + cos y)
+    let right = is_above(wave.second, 0.0);
+    let down = choose(
+        right,
+        real_div(real_square(wave.first), add32(choose(right, wave.second, num(0.0)), 1.0)),
+        add32(real_neg(wave.second), 1.0),
+    );
+    let re = sum_of_products(growth, wave.second, real_neg(down), num(1.0), num(0.0));
+    let im = scale(real_mul(add32(v, 1.0), wave.first), s.count);
+    return Complex(choose(flat, growth, choose(is_zero(z.re), real_neg(down), re)), choose(flat, z.im, im));
 }
 
-/// log(1 + z), cut along the negative axis left of -1; the real part is half of log1p(2x + x² + y²), summed in long
-/// numbers.
+/// log(1 + z), cut along the negative axis left of -1. Right of -1/2, where 1 + z is rounded, the modulus is that of the
+/// exact sum.
 fn complex_log1p(z: Complex) -> Complex {
-    if is_zero(z.im) && is_above(z.re, -0.5) {
-        return Complex(real_log1p(z.re), z.im);
+    let x = add32(z.re, 1.0);
+    let size = real_abs(x);
+    let y = real_abs(z.im);
+    let right = is_above(z.re, -0.5) && is_below(z.re, 2.0) && is_below(y, 2.0);
+    let a = real_max(size, y);
+    let b = real_min(size, y);
+    if is_nan(z.re) || is_nan(z.im) {
+        return Complex(choose(is_infinite(a), a, make_nan(x)), make_nan(x));
     }
-    if !(is_below(real_abs(z.re), 0.5) && is_below(real_abs(z.im), 0.5)) {
-        return complex_log(Complex(add32(z.re, 1.0), z.im));
-    }
-    let squares = long_add(long_product(z.re, z.re), long_product(z.im, z.im));
-    let size = long_to_real(long_add_real(squares, scale(z.re, 1)));
-    return Complex(scale(real_log1p(size), -1), real_atan2(z.im, add32(z.re, 1.0)));
+    let modulus = log_of_sides(
+        choose(right, num(1.0), a),
+        choose(right, y, b),
+        choose(right, z.re, add32(a, -1.0)),
+        right || is_near_circle(a, b),
+    );
+    return Complex(choose(complex_is_zero(z), z.re, modulus), real_atan2(z.im, x));
 }

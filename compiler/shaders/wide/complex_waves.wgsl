@@ -1,98 +1,61 @@
 // Complex trigonometric and hyperbolic functions and their inverses. The trigonometric ones are the hyperbolic ones
 // turned by i, as C99 Annex G specifies them.
 
-/// (sinh x, cosh x) / 2^exponent, so that products with them overflow only where they must.
-struct ScaledWaves {
-    sinh: real,
-    cosh: real,
-    exponent: i32,
-}
-
-fn scaled_sinhcosh(x: real) -> ScaledWaves {
-    let a = real_abs(x);
-    if !is_above(a, 40.0) {
-        let w = real_sinhcosh(x);
-        return ScaledWaves(w.first, w.second, 0);
-    }
-    let s = exp_apart(Long(a, num(0.0)));
-    let e = mul32(s.value, 0.5);
-    return ScaledWaves(flip_if(e, sign_is_set(x)), e, s.exponent);
-}
-
-fn sinh_of_parts(z: Complex, wave: RealPair, h: ScaledWaves) -> Complex {
-    let re = scale(real_mul(real_abs(h.sinh), real_abs(wave.second)), h.exponent);
-    return Complex(flip_if(re, signs_differ(z.re, wave.second)), scale(real_mul(h.cosh, wave.first), h.exponent));
-}
-
-fn cosh_of_parts(z: Complex, wave: RealPair, h: ScaledWaves) -> Complex {
-    let im = scale(real_mul(real_abs(h.sinh), real_abs(wave.first)), h.exponent);
-    return Complex(scale(real_mul(h.cosh, wave.second), h.exponent), flip_if(im, signs_differ(z.re, wave.first)));
-}
-
-/// sinh z = sinh x cos y + i cosh x sin y (C99 G.6.2.5).
+/// (sinh z, cosh z) = (sinh x cos y + i cosh x sin y, cosh x cos y + i sinh x sin y), as C99 G.6.2.4 and 5 have them.
 /// Error: 6 u each component.
+fn complex_sinhcosh(z: Complex) -> ComplexPair {
+    let wave = real_sincos(z.im);
+    let h = scaled_sinhcosh(z.re);
+    let along = scale(real_mul(real_abs(h.sinh), real_abs(wave.second)), h.exponent);
+    let across = scale(real_mul(real_abs(h.sinh), real_abs(wave.first)), h.exponent);
+    var sinh = Complex(
+        flip_if(along, signs_differ(z.re, wave.second)),
+        scale(real_mul(h.cosh, wave.first), h.exponent),
+    );
+    var cosh = Complex(
+        scale(real_mul(h.cosh, wave.second), h.exponent),
+        flip_if(across, signs_differ(z.re, wave.first)),
+    );
+    if is_zero(z.im) { // of NaN, too
+        sinh.im = z.im;
+        cosh.im = flip_if(z.im, sign_is_set(z.re));
+    }
+    if !is_finite(z.im) {
+        let on_axis = is_zero(z.re);
+        let nan = make_nan(z.im);
+        sinh.re = choose(on_axis || is_infinite(z.re), z.re, nan);
+        cosh = Complex(choose(is_infinite(z.re), real_abs(z.re), nan), choose(on_axis, z.re, nan));
+    }
+    return ComplexPair(sinh, cosh);
+}
+
+/// sinh z. Error: 6 u each component.
 fn complex_sinh(z: Complex) -> Complex {
-    if is_zero(z.im) {
-        return Complex(real_sinh(z.re), z.im);
-    }
-    if !is_finite(z.im) {
-        let keep = is_zero(z.re) || is_infinite(z.re);
-        return Complex(choose(keep, z.re, make_nan(z.re)), make_nan(z.im));
-    }
-    let wave = real_sincos(z.im);
-    if is_infinite(z.re) {
-        return Complex(flip_if(z.re, sign_is_set(wave.second)), make_infinity(wave.first));
-    }
-    return sinh_of_parts(z, wave, scaled_sinhcosh(z.re));
+    return complex_sinhcosh(z).first;
 }
 
-/// cosh z = cosh x cos y + i sinh x sin y (C99 G.6.2.4).
-/// Error: 6 u each component.
+/// cosh z. Error: 6 u each component.
 fn complex_cosh(z: Complex) -> Complex {
-    if is_zero(z.im) {
-        return Complex(real_cosh(z.re), flip_if(z.im, sign_is_set(z.re)));
-    }
-    if !is_finite(z.im) {
-        if is_zero(z.re) {
-            return Complex(make_nan(z.im), z.re);
-        }
-        return Complex(choose(is_infinite(z.re), real_abs(z.re), make_nan(z.re)), make_nan(z.im));
-    }
-    let wave = real_sincos(z.im);
-    if is_infinite(z.re) {
-        return Complex(make_infinity(wave.second), flip_if(z.re, sign_is_set(wave.first)));
-    }
-    return cosh_of_parts(z, wave, scaled_sinhcosh(z.re));
+    return complex_sinhcosh(z).second;
 }
 
 /// tanh z = (sinh x cosh x + i sin y cos y) / (sinh² x + cos² y): no term cancels (after Kahan 1987; C99 G.6.2.6).
 /// Error: 8 u each component.
 fn complex_tanh(z: Complex) -> Complex {
+    let wave = real_sincos(z.im);
     if is_infinite(z.re) {
-        var below = sign_is_set(z.im);
-        if is_finite(z.im) {
-            let wave = real_sincos(z.im);
-            below = signs_differ(wave.first, wave.second);
-        }
+        let below = select(sign_is_set(z.im), signs_differ(wave.first, wave.second), is_finite(z.im));
         return Complex(with_sign(num(1.0), z.re), flip_if(num(0.0), below));
     }
-    if is_zero(z.im) {
-        return Complex(real_tanh(z.re), z.im);
-    }
-    if !is_finite(z.im) || is_nan(z.re) {
-        return Complex(choose(is_zero(z.re), z.re, make_nan(z.re)), make_nan(z.im));
-    }
-    let wave = real_sincos(z.im);
-    let a = real_abs(z.re);
-    if is_above(a, 20.0) { // 1 is tanh x, and sinh² x + cos² y is e^2x / 4, to working precision
-        let e = mul32(real_exp(mul32(a, -2.0)), 4.0);
-        return Complex(with_sign(num(1.0), z.re), real_mul(real_mul(wave.first, wave.second), e));
-    }
-    let h = real_sinhcosh(a);
-    let norm = real_add(real_square(h.first), real_square(wave.second));
+    let h = scaled_sinhcosh(real_abs(z.re));
+    // far out cos² y is nothing beside sinh² x, which is a multiple of a power of two
+    let norm = real_add(real_square(h.sinh), choose(h.exponent == 0, real_square(wave.second), num(0.0)));
+    let re = with_sign(real_div(real_mul(h.sinh, h.cosh), norm), z.re);
+    let im = scale(real_div(real_mul(wave.first, wave.second), norm), -2 * h.exponent);
+    let lost = !is_finite(z.im) || is_nan(z.re);
     return Complex(
-        with_sign(real_div(real_mul(h.first, h.second), norm), z.re),
-        real_div(real_mul(wave.first, wave.second), norm),
+        choose(lost, choose(is_zero(z.re), z.re, make_nan(z.re)), re),
+        choose(is_zero(z.im), z.im, choose(lost, make_nan(z.im), im)),
     );
 }
 
@@ -137,16 +100,42 @@ struct Arc {
 /// √(1 + z) is a sum of terms of one sign, so nothing cancels.
 fn complex_arc(z: Complex) -> Arc {
     let b = real_abs(z.im);
-    if is_above(real_max(real_abs(z.re), b), 4294967296.0) { // 1 ± z² is ±z² to working precision
-        let size = real_add(log_hypot(z.re, z.im), real_log_of_2());
-        return Arc(real_atan2(z.re, b), real_atan2(b, z.re), size);
-    }
+    let far = is_above(real_max(real_abs(z.re), b), 4294967296.0); // 1 ± z² is ±z² to working precision
     // in the upper half plane
-    let minus = complex_sqrt(Complex(real_sub(num(1.0), z.re), real_neg(b)));
-    let plus = complex_sqrt(Complex(real_add(num(1.0), z.re), b));
+    let roots = roots_of_sides(z.re, b);
+    let minus = roots.first;
+    let plus = roots.second;
     let cross = real_add(real_abs(real_mul(minus.re, plus.im)), real_abs(real_mul(minus.im, plus.re)));
     let along = real_add(real_mul(minus.re, plus.re), real_abs(real_mul(minus.im, plus.im)));
-    return Arc(real_atan2(z.re, along), twice(real_atan2(minus.re, plus.re)), real_asinh(cross));
+    let acos = real_atan2(choose(far, b, minus.re), choose(far, z.re, plus.re));
+    return Arc(real_atan2(z.re, choose(far, b, along)), choose(far, acos, twice(acos)), height_of_arc(z, cross, far));
+}
+
+/// arsinh of the cross product, log |2 z| of far ones.
+fn height_of_arc(z: Complex, cross: real, far: bool) -> real {
+    if complex_is_infinite(z) {
+        return make_infinity(num(1.0));
+    }
+    if far {
+        let e = complex_exponent(z);
+        let v = complex_scale(z, -e);
+        let split = split_logarithm(real_add(real_square(v.re), real_square(v.im)));
+        return scale(log_of_split(split.exponent + 2 * e + 2, split.fraction), -1);
+    }
+    // as `real_asinh`
+    let square = real_square(cross);
+    return real_log1p(real_add(cross, real_div(square, add32(real_sqrt(add32(square, 1.0)), 1.0))));
+}
+
+/// √(1 - x - i b) and √(1 + x + i b).
+fn roots_of_sides(x: real, b: real) -> ComplexPair {
+    var roots = ComplexPair(Complex(x, b), Complex(x, b));
+    for (var k = 0u; k < 2u; k++) {
+        roots.first = roots.second;
+        let minus = k == 0u;
+        roots.second = complex_sqrt(Complex(add32(flip_if(x, minus), 1.0), flip_if(b, minus)));
+    }
+    return roots;
 }
 
 /// arsinh z where a component is NaN (C99 G.6.2.2).
@@ -163,8 +152,9 @@ fn complex_asin(z: Complex) -> Complex {
     if complex_has_nan(z) {
         return complex_div_i(asinh_of_nan(complex_mul_i(z)));
     }
-    let arc = complex_arc(z);
-    return Complex(arc.asin, with_sign(arc.im, z.im));
+    // in the right half plane, so that it is odd bit for bit
+    let arc = complex_arc(Complex(real_abs(z.re), z.im));
+    return Complex(with_sign(arc.asin, z.re), with_sign(arc.im, z.im));
 }
 
 /// arccos z, cuts on the real axis outside [-1, 1].
@@ -215,15 +205,20 @@ fn complex_atanh(z: Complex) -> Complex {
         return Complex(with_sign(re, z.re), with_sign(half_pi(), z.im));
     }
     let d = real_sub(num(1.0), a);
+    let up = real_add(num(1.0), a);
+    let e = complex_exponent(Complex(d, b));
     if is_zero(d) && is_zero(b) {
         return Complex(make_infinity(z.re), z.im);
     }
-    let norm = real_add(real_square(d), real_square(b));
-    let im = mul32(real_atan2(twice(b), real_sub(real_mul(d, real_add(num(1.0), a)), real_square(b))), 0.5);
-    var re = mul32(real_log1p(real_div(mul32(a, 4.0), norm)), 0.25);
-    if is_below(norm, 1e-6) { // the squares may underflow
-        re = mul32(real_sub(log_hypot(real_add(num(1.0), a), b), log_hypot(d, b)), 0.5);
-    }
+    let im = mul32(real_atan2(twice(b), real_sub(real_mul(d, up), real_square(b))), 0.5);
+    // log(|1 + z|² / |1 - z|²) / 4, beside the pole with |1 - z|² = 4^e norm, else as log1p(4 a / |1 - z|²) / 4
+    let near = e < -10;
+    let f = select(0, e, near);
+    let norm = real_add(real_square(scale(d, -f)), real_square(scale(b, -f)));
+    let ratio = real_div(choose(near, real_add(real_square(up), real_square(b)), mul32(a, 4.0)), norm);
+    let split = split_logarithm(choose(near, ratio, add32(ratio, 1.0)));
+    let fraction = choose(near, split.fraction, split_beside_one(ratio, split.exponent));
+    let re = mul32(log_of_split(split.exponent - 2 * f, fraction), 0.25);
     return Complex(with_sign(re, z.re), with_sign(im, z.im));
 }
 

@@ -275,6 +275,29 @@ fn long_product(a: real, b: real) -> Long {
     return two_product(a, b, hidden_zero_of(a, b));
 }
 
+/// a + b (after Joldes, Muller, Popescu 2017, algorithm 6).
+fn long_add(a: Long, b: Long) -> Long {
+    let s = long_sum(a.hi, b.hi);
+    let t = long_sum(a.lo, b.lo);
+    let v = long_sum(s.hi, real_add(s.lo, t.hi));
+    return long_sum(v.hi, real_add(t.lo, v.lo));
+}
+
+/// a + b
+fn long_add_real(a: Long, b: real) -> Long {
+    let s = long_sum(a.hi, b);
+    return long_sum(s.hi, real_add(s.lo, a.lo));
+}
+
+/// a b + c d + e with about one rounding, however much cancels.
+fn sum_of_products(a: real, b: real, c: real, d: real, e: real) -> real {
+    let ab = long_product(a, b);
+    let s = long_sum(ab.hi, e);
+    let cd = long_product(c, d);
+    let t = long_sum(s.hi, cd.hi);
+    return long_to_real(long_add(long_sum(t.hi, ab.lo), long_add(long_sum(s.lo, t.lo), long_sum(cd.lo, num(0.0)))));
+}
+
 /// |a| as high · 2^high_exponent ± low · 2^low_exponent with integers.
 struct Pieces {
     high: u32,
@@ -348,13 +371,33 @@ fn log_correction(s: Long) -> Long {
     return long_times(long_times(s, z), Long(t.hi, t.lo + 3.700743415417188e-17lf));
 }
 
-/// h · 2^e radians for the fraction h = high + low/2^32 of a quarter turn, high with its top bit set: the first 21
-/// bits of π/2 times 32 are exact.
-fn radians_of_turns(high: u32, low: u32, e: i32) -> real {
+/// sin (r + low) for |r| ≤ π/4, low below its last place.
+fn sin_near(r: real, low: real) -> real {
+    let z = r * r;
+    return r + (r * z * sin_tail(z) + low * (1.0lf - 0.5lf * z));
+}
+
+/// cos (r + low) for |r| ≤ π/4, low below its last place.
+fn cos_near(r: real, low: real) -> real {
+    let z = r * r;
+    let w = quick_two_sum(1.0lf, -0.5lf * z, hidden_zero(z));
+    return w.hi + (w.lo + (z * z * cos_tail(z) - r * low));
+}
+
+/// a + b for a tiny b, and what that loses.
+fn rest_with_low(a: real, b: real) -> RealPair {
+    let r = quick_two_sum(a, b, hidden_zero(a));
+    return RealPair(r.hi, r.lo);
+}
+
+/// h · 2^e radians for the fraction h = high + low/2^32 of a quarter turn, high with its top bit set, and what that
+/// loses: the first 21 bits of π/2 times 32 are exact.
+fn radians_of_turns(high: u32, low: u32, e: i32) -> RealPair {
     let h = f64(high);
     let l = f64(low) * 2.3283064365386963e-10lf;
-    let r = opaque(h * 1.570796012878418lf, hidden_zero(h));
-    return scale(r + (l * 1.5707963267948966lf + h * 3.139164786504813e-07lf), e);
+    let zero = hidden_zero(h);
+    let r = quick_two_sum(opaque(h * 1.570796012878418lf, zero), l * 1.5707963267948966lf + h * 3.139164786504813e-07lf, zero);
+    return RealPair(scale(r.hi, e), scale(r.lo, e));
 }
 
 /// Beyond this magnitude e^x is 0 or infinite.

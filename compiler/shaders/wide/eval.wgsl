@@ -11,7 +11,7 @@ struct Batch {
 
 @group(0) @binding(0) var<storage, read> rows: array<vec2u>;
 @group(0) @binding(2) var<storage, read_write> results: array<vec2u>;
-@group(0) @binding(3) var<uniform> batch: Batch;
+@group(0) @binding(4) var<uniform> batch: Batch;
 
 fn real_from_words(w: vec2u) -> real { return real(); }
 fn real_to_words(x: real) -> vec2u { return vec2u(); }

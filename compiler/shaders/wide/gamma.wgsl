@@ -8,7 +8,8 @@ fn sincos_pi(x: real) -> RealPair {
     let f = real_sub(a, n); // exact, in [-1/2, 1/2]
     let g = real_abs(f);
     let outer = is_above(g, 0.25);
-    let wave = real_sincos(real_mul(choose(outer, real_sub(num(0.5), g), g), real_pi()));
+    let angle = real_mul(choose(outer, real_sub(num(0.5), g), g), real_pi()); // up to π/4: nothing to reduce
+    let wave = RealPair(sin_near(angle, num(0.0)), cos_near(angle, num(0.0)));
     let half = mul32(n, 0.5);
     let odd = real_not_equal(half, real_floor(half));
     return RealPair(
@@ -115,7 +116,7 @@ fn gamma_of_positive(x: real) -> Scaled {
     let steps = steps_to_ten(x);
     let top = long_sum(x, num(f32(steps)));
     // (t - 1/2) log t - t + log(2π)/2 + series, t = top
-    let logarithm = long_log_modulus(complex_of_real(top.hi));
+    let logarithm = long_log(top.hi);
     let power = long_add_real(top, num(-0.5));
     var size = long_add(long_times(logarithm, power), long_neg(top));
     size = long_add(size, long_half_log_tau());
@@ -129,36 +130,49 @@ fn gamma_of_positive(x: real) -> Scaled {
     return Scaled(real_div(s.value, long_to_real(rising_product(x, steps))), s.exponent);
 }
 
-/// Γ(x); NaN at the negative integers, ±∞ at ±0. Left of 0 by Γ(-y) = -π / (y sin πy Γ(y)). Exact where it is an
-/// integer of at most 48 bits.
-/// Error: 12 u.
-fn real_gamma(x: real) -> real {
+/// A value that needs no series, where it is known.
+struct Known {
+    value: real,
+    is_known: bool,
+}
+
+/// Γ at its poles, beside 0, at infinity and at integers below 20.
+fn known_gamma(x: real) -> Known {
     let y = real_abs(x);
     if is_below(y, 1e-17) {
-        return choose(is_zero(x), make_infinity(x), real_div(num(1.0), x));
+        return Known(choose(is_zero(x), make_infinity(x), real_div(num(1.0), x)), true);
     }
-    if is_gamma_pole(x) || is_nan(x) {
-        return make_nan(x);
-    }
-    if is_infinite(x) {
-        return choose(sign_is_set(x), make_nan(x), x);
+    if is_gamma_pole(x) || !is_finite(x) {
+        return Known(choose(sign_is_set(x) || is_nan(x), make_nan(x), x), true);
     }
     if is_below(y, 20.0) && real_equal(real_floor(y), y) {
         var product = num(1.0);
         for (var k = 2; k < i32(real_to_f32(y)); k++) {
             product = mul32(product, f32(k));
         }
-        return product;
+        return Known(product, true);
     }
+    return Known(x, false);
+}
+
+/// Γ(x); NaN at the negative integers, ±∞ at ±0. Left of 0 by Γ(-y) = -π / (y sin πy Γ(y)). Exact where it is an
+/// integer of at most 48 bits.
+/// Error: 12 u.
+fn real_gamma(x: real) -> real {
+    let known = known_gamma(x);
+    if known.is_known {
+        return known.value;
+    }
+    let y = real_abs(x);
     let s = gamma_of_positive(y);
     if !sign_is_set(x) {
         return scale(s.value, s.exponent);
     }
+    let wave = sincos_pi(y).first;
     if is_above(y, 1000.0) {
-        return flip_if(num(0.0), !sign_is_set(sincos_pi(y).first));
+        return flip_if(num(0.0), !sign_is_set(wave));
     }
-    let below = real_mul(real_mul(y, sincos_pi(y).first), s.value);
-    return scale(real_neg(real_div(real_pi(), below)), -s.exponent);
+    return scale(real_neg(real_div(real_pi(), real_mul(real_mul(y, wave), s.value))), -s.exponent);
 }
 
 /// 1 - γ, then (-1)^k (ζ(k) - 1)/k, k = 2 … 29 (DLMF 5.7.3).
@@ -206,6 +220,7 @@ fn lgamma_beside_two(t: real) -> real {
     return real_mul(t, sum);
 }
 
+/// For 1/2 < x < 5/2 by the series beside 2, below from Γ(x) = Γ(x + 2) / (x (x + 1)).
 fn lgamma_of_positive(x: real) -> real {
     if is_above(x, 10.0) {
         let sum = real_add(long_half_log_tau().hi, add32(stirling_series(x), -0.5));
@@ -215,14 +230,12 @@ fn lgamma_of_positive(x: real) -> real {
         let s = gamma_of_positive(x);
         return real_log(scale(s.value, s.exponent));
     }
-    if is_above(x, 1.5) {
-        return lgamma_beside_two(add32(x, -2.0));
-    }
-    if is_above(x, 0.5) {
-        let t = add32(x, -1.0);
-        return choose(is_zero(t), num(0.0), real_sub(lgamma_beside_two(t), real_log1p(t)));
-    }
-    return real_sub(real_sub(lgamma_beside_two(x), real_log1p(x)), real_log(x));
+    let steps = select(select(2.0, 1.0, is_above(x, 0.5)), 0.0, is_above(x, 1.5));
+    let near = lgamma_beside_two(add32(x, steps - 2.0));
+    let t = add32(x, steps - 2.0);
+    let down = choose(steps > 0.0, real_log1p(t), num(0.0));
+    let r = choose(is_zero(t), num(0.0), real_sub(near, down));
+    return choose(steps > 1.0, real_sub(r, real_log(x)), r);
 }
 
 /// log |Γ(x)|: ∞ at the poles. Relative accuracy near its zeros at 1 and 2; at those left of 0 absolute.

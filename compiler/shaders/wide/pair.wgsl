@@ -277,6 +277,30 @@ fn long_sum(a: real, b: real) -> Long {
     return pair_long(s.x, u.x, u.y, t.y, zero);
 }
 
+/// a + b, word by word, with the carries.
+fn long_add(a: Long, b: Long) -> Long {
+    let zero = hidden_zero_of(a.hi.x, b.hi.x);
+    let s = two_sum(a.hi.x, b.hi.x, zero);
+    let t = two_sum(a.hi.y, b.hi.y, zero);
+    let u = two_sum(a.lo.x, b.lo.x, zero);
+    let next = two_sum(t.x, s.y, zero);
+    let v = two_sum(u.x, t.y, zero);
+    let third = two_sum(v.x, next.y, zero);
+    let rest = opaque((a.lo.y + b.lo.y) + (u.y + (v.y + third.y)), zero);
+    return pair_long(s.x, next.x, third.x, rest, zero);
+}
+
+/// a + b
+fn long_add_real(a: Long, b: real) -> Long {
+    let zero = hidden_zero_of(a.hi.x, b.x);
+    let s = two_sum(a.hi.x, b.x, zero);
+    let t = two_sum(a.hi.y, b.y, zero);
+    let next = two_sum(t.x, s.y, zero);
+    let v = two_sum(a.lo.x, t.y, zero);
+    let third = two_sum(v.x, next.y, zero);
+    return pair_long(s.x, next.x, third.x, opaque(a.lo.y + (v.y + third.y), zero), zero);
+}
+
 /// a b, but for what is below 2^-90 of it.
 fn long_product(a: real, b: real) -> Long {
     let zero = hidden_zero_of(a.x, b.x);
@@ -311,6 +335,44 @@ fn pair_long(a: f32, b: f32, c: f32, d: f32, zero: u32) -> Long {
         select(vec2f(hi.x, lo.x), vec2f(a, 0.0), plain),
         select(quick_two_sum(lo.y, opaque(low.y, zero), zero), vec2f(0.0), plain),
     );
+}
+
+/// Five words whose sum is meant.
+struct Cascade {
+    words: vec4f,
+    last: f32,
+}
+
+/// The cascade with t more: what each sum loses goes into the next (Ogita, Rump, Oishi, "Accurate sum and dot product",
+/// SIAM J. Sci. Comput. 26, 2005).
+fn pair_cascade(c: Cascade, t: f32, zero: u32) -> Cascade {
+    let p = two_sum(c.words.x, t, zero);
+    let q = two_sum(c.words.y, p.y, zero);
+    let r = two_sum(c.words.z, q.y, zero);
+    let s = two_sum(c.words.w, r.y, zero);
+    return Cascade(vec4f(p.x, q.x, r.x, s.x), opaque(c.last + s.y, zero));
+}
+
+/// a b + c d + e with about one rounding, however much cancels: the sixteen words of the partial products and two.
+fn sum_of_products(a: real, b: real, c: real, d: real, e: real) -> real {
+    let zero = hidden_zero_of(a.x, b.x);
+    var sum = Cascade(vec4f(e, 0.0, 0.0), 0.0);
+    for (var k = 0u; k < 16u; k++) {
+        let v = select(a, c, (k & 2u) != 0u);
+        let w = select(b, d, (k & 2u) != 0u);
+        let p = two_product(select(v.x, v.y, (k & 4u) != 0u), select(w.x, w.y, (k & 8u) != 0u), zero);
+        sum = pair_cascade(sum, select(p.x, p.y, (k & 1u) != 0u), zero);
+    }
+    // the first words may cancel once more: summed again, from the last one on
+    for (var k = 0u; k < 2u; k++) {
+        let words = sum;
+        sum = Cascade(vec4f(words.last, 0.0, 0.0, 0.0), 0.0);
+        sum = pair_cascade(sum, words.words.w, zero);
+        sum = pair_cascade(sum, words.words.z, zero);
+        sum = pair_cascade(sum, words.words.y, zero);
+        sum = pair_cascade(sum, words.words.x, zero);
+    }
+    return two_sum(sum.words.x, opaque(sum.words.y + sum.words.z, zero), zero);
 }
 
 /// |a| as high · 2^high_exponent ± low · 2^low_exponent with integers.
@@ -406,9 +468,27 @@ fn log_correction(s: Long) -> Long {
     return Long(real_mul(real_mul(s.hi, z), t), vec2f(0.0));
 }
 
-/// h · 2^e radians for the fraction h = high + low/2^32 of a quarter turn, high with its top bit set.
-fn radians_of_turns(high: u32, low: u32, e: i32) -> real {
-    return real_mul(real_from_integer(high, low, e - 32), lit(1.5707964, -4.371139e-08, 0.0));
+/// sin r for |r| ≤ π/4; r has no low part.
+fn sin_near(r: real, low: real) -> real {
+    let z = real_square(r);
+    return real_add(r, real_mul(real_mul(r, z), sin_tail(z)));
+}
+
+/// cos r for |r| ≤ π/4; r has no low part.
+fn cos_near(r: real, low: real) -> real {
+    let z = real_square(r);
+    return add32(real_sub(real_mul(real_square(z), cos_tail(z)), scale(z, -1)), 1.0);
+}
+
+/// a + b for a tiny b, and what that loses: nothing that matters here.
+fn rest_with_low(a: real, b: real) -> RealPair {
+    return RealPair(real_add(a, b), num(0.0));
+}
+
+/// h · 2^e radians for the fraction h = high + low/2^32 of a quarter turn, high with its top bit set, and what that
+/// loses.
+fn radians_of_turns(high: u32, low: u32, e: i32) -> RealPair {
+    return RealPair(real_mul(real_from_integer(high, low, e - 32), lit(1.5707964, -4.371139e-08, 0.0)), num(0.0));
 }
 
 /// Beyond this magnitude e^x is 0 or infinite.

@@ -67,20 +67,23 @@ fn real_zeta(n: i32, x: real, first: i32) -> real {
     return sum;
 }
 
-/// ψ⁽ⁿ⁾(x), 2 ≤ n ≤ 5: at the poles ∞ for odd n, NaN for even n but at ±0. Absolute accuracy left of 0 for even n.
-fn real_polygamma(x: real, n: i32) -> real {
-    let odd = (n & 1) == 1;
+/// ψ⁽ⁿ⁾ at its poles and where x is not finite.
+fn polygamma_at_end(x: real, odd: bool) -> real {
     if is_nan(x) || is_infinite(x) && sign_is_set(x) {
         return make_nan(x);
-    }
-    if is_zero(x) {
-        return choose(odd, make_infinity(num(1.0)), make_infinity(real_neg(x)));
     }
     if is_infinite(x) {
         return flip_if(num(0.0), !odd);
     }
-    if is_gamma_pole(x) {
-        return choose(odd, make_infinity(num(1.0)), make_nan(x));
+    let even = choose(is_zero(x), make_infinity(real_neg(x)), make_nan(x));
+    return choose(odd, make_infinity(num(1.0)), even);
+}
+
+/// ψ⁽ⁿ⁾(x), 2 ≤ n ≤ 5: at the poles ∞ for odd n, NaN for even n but at ±0. Absolute accuracy left of 0 for even n.
+fn real_polygamma(x: real, n: i32) -> real {
+    let odd = (n & 1) == 1;
+    if is_zero(x) || !is_finite(x) || is_gamma_pole(x) {
+        return polygamma_at_end(x, odd);
     }
     let size = polygamma_scale(n);
     if !sign_is_set(x) {
@@ -108,7 +111,7 @@ fn real_polygamma(x: real, n: i32) -> real {
 fn complex_small_power(z: Complex, n: i32) -> Complex {
     var product = z;
     for (var k = 1; k < n; k++) {
-        product = complex_mul(product, z);
+        product = plain_product(product, z);
     }
     return product;
 }
@@ -121,11 +124,11 @@ fn complex_zeta(n: i32, z: Complex, first: i32) -> Complex {
     var series = complex_of_real(num(0.0));
     for (var k = 9; k >= 0; k--) {
         let factor = real_mul(zeta_coefficient(k), zeta_rising(n + 1, k));
-        series = complex_add_real(complex_mul(w, series), factor);
+        series = complex_add_real(plain_product(w, series), factor);
     }
-    let half = complex_add_real(complex_mul(r, series), num(0.5));
-    let near = complex_add_real(complex_mul(r, half), real_div(num(1.0), num(f32(n))));
-    var sum = complex_mul(complex_small_power(r, n), near);
+    let half = complex_add_real(plain_product(r, series), num(0.5));
+    let near = complex_add_real(plain_product(r, half), real_div(num(1.0), num(f32(n))));
+    var sum = plain_product(complex_small_power(r, n), near);
     for (var k = steps - 1; k >= first; k--) {
         sum = complex_add(sum, complex_small_power(complex_inverse(complex_step(z, k)), n + 1));
     }
@@ -135,8 +138,10 @@ fn complex_zeta(n: i32, z: Complex, first: i32) -> Complex {
 /// ψ⁽ⁿ⁾(z), 2 ≤ n ≤ 5. Error: 100 u of the largest term.
 fn complex_polygamma(z: Complex, n: i32) -> Complex {
     let odd = (n & 1) == 1;
-    if is_zero(z.im) {
-        return Complex(real_polygamma(z.re, n), flip_if(z.im, odd));
+    let flat = is_zero(z.im);
+    let im_of_flat = flip_if(z.im, odd);
+    if flat && (is_zero(z.re) || !is_finite(z.re) || is_gamma_pole(z.re)) {
+        return Complex(polygamma_at_end(z.re, odd), im_of_flat);
     }
     if !complex_is_finite(z) {
         if complex_has_nan(z) {
@@ -144,26 +149,29 @@ fn complex_polygamma(z: Complex, n: i32) -> Complex {
         }
         return complex_of_real(num(0.0));
     }
-    let size = num(polygamma_scale(n));
-    if !sign_is_set(z.re) || is_zeta_far(z) {
-        let far = complex_mul_real(complex_zeta(n, z, 0), size);
-        return complex_choose(odd, far, complex_neg(far));
+    let left = sign_is_set(z.re) && !is_zeta_far(z);
+    let zeta = complex_zeta(n, complex_choose(left, complex_neg(z), z), select(0, 1, left));
+    let regular = complex_mul_real(zeta, num(polygamma_scale(n)));
+    if !left {
+        let far = complex_choose(odd, regular, complex_neg(regular));
+        return Complex(far.re, choose(flat, im_of_flat, far.im));
     }
-    let square = complex_square(complex_mul_real(complex_inverse(complex_sin_pi(z)), real_pi()));
-    let cot = complex_pi_cot_pi(z);
+    let waves = waves_of_pi(z);
+    let square = complex_square(complex_mul_real(complex_inverse(complex_sin_pi(waves)), real_pi()));
+    let cot = complex_pi_cot_pi(z, waves);
     let cc = complex_square(cot);
-    var reflected = complex_mul(square, cc);
+    var reflected = plain_product(square, cc);
     if n == 2 {
-        reflected = complex_scale(complex_mul(cot, square), 1);
+        reflected = complex_scale(plain_product(cot, square), 1);
     } else if n == 3 {
-        reflected = complex_mul(square, complex_add(complex_scale(square, 1), complex_scale(cc, 2)));
+        reflected = plain_product(square, complex_add(complex_scale(square, 1), complex_scale(cc, 2)));
     } else if n == 4 {
         let factor = complex_add(complex_scale(square, 4), complex_scale(cc, 3));
-        reflected = complex_mul(complex_mul(cot, square), factor);
+        reflected = plain_product(plain_product(cot, square), factor);
     } else {
         let outer = complex_scale(complex_add(complex_square(square), complex_square(cc)), 4);
-        reflected = complex_mul(square, complex_add(outer, complex_mul_real(reflected, num(88.0))));
+        reflected = plain_product(square, complex_add(outer, complex_mul_real(reflected, num(88.0))));
     }
-    let regular = complex_mul_real(complex_zeta(n, complex_neg(z), 1), size);
-    return complex_sub(complex_choose(odd, reflected, complex_neg(reflected)), regular);
+    let r = complex_sub(complex_choose(odd, reflected, complex_neg(reflected)), regular);
+    return Complex(r.re, choose(flat, im_of_flat, r.im));
 }

@@ -1,20 +1,6 @@
 // Sums of twice the precision, and real powers: the logarithm in such a sum, so that the error of y log x stays below
 // the last place.
 
-/// a + b (after Joldes, Muller, Popescu 2017, algorithm 6).
-fn long_add(a: Long, b: Long) -> Long {
-    let s = long_sum(a.hi, b.hi);
-    let t = long_sum(a.lo, b.lo);
-    let v = long_sum(s.hi, real_add(s.lo, t.hi));
-    return long_sum(v.hi, real_add(t.lo, v.lo));
-}
-
-/// a + b
-fn long_add_real(a: Long, b: real) -> Long {
-    let s = long_sum(a.hi, b);
-    return long_sum(s.hi, real_add(s.lo, a.lo));
-}
-
 /// a b
 fn long_mul(a: Long, b: real) -> Long {
     let p = long_product(a.hi, b);
@@ -29,11 +15,6 @@ fn long_times(a: Long, b: Long) -> Long {
 
 fn long_to_real(a: Long) -> real {
     return real_add(a.hi, a.lo);
-}
-
-/// a b + c d with about one rounding, however much cancels.
-fn sum_of_products(a: real, b: real, c: real, d: real) -> real {
-    return long_to_real(long_add(long_product(a, b), long_product(c, d)));
 }
 
 /// log x of a positive finite x: relative error 2^-52 in pairs, 2^-65 in f64.

@@ -213,18 +213,26 @@ fn expm1_polynomial(r: real) -> real {
     return real_add(r, real_mul(real_square(r), exp_tail(r)));
 }
 
-/// e^x 2^k, with one rounding at the ends of the range; |k| ≤ 40.
-fn exp_scaled(x: real, k: i32) -> real {
-    if is_nan(x) {
-        return x;
-    }
+/// A number as value 2^exponent.
+struct Scaled {
+    value: real,
+    exponent: i32,
+}
+
+/// e^x of no NaN with the value in [0.7, 1.42], so that products with it overflow only where they must: beyond EXP_END
+/// as there, 2^-60 of which still is 0 or infinite.
+fn exp_of_parts(x: real) -> Scaled {
     let s = split_exponent(clamped(x, EXP_END));
-    return scale(add32(expm1_polynomial(s.rest), 1.0), s.count + k);
+    return Scaled(add32(expm1_polynomial(s.rest), 1.0), s.count);
 }
 
 /// e^x.
 fn real_exp(x: real) -> real {
-    return exp_scaled(x, 0);
+    if is_nan(x) {
+        return x;
+    }
+    let s = exp_of_parts(x);
+    return scale(s.value, s.exponent);
 }
 
 /// 2^x.
@@ -243,16 +251,18 @@ fn real_expm1(x: real) -> real {
     if is_nan(x) {
         return x;
     }
-    let a = abs(real_to_f32(x));
-    if a < 0.34 {
-        return choose(a < 1e-17, x, expm1_polynomial(x));
+    if abs(real_to_f32(x)) < 1e-17 {
+        return x;
     }
     let s = split_exponent(clamped(choose(real_less(x, num(-50.0)), num(-50.0), x), EXP_END));
     let v = expm1_polynomial(s.rest);
+    if s.count == 0 {
+        return v;
+    }
     if s.count > 64 {
         return scale(add32(v, 1.0), s.count);
     }
-    return real_add(scale(v, s.count), rounded(add32(scale(num(1.0), s.count), -1.0)));
+    return expm1_of_parts(v, s.count);
 }
 
 /// A positive number as 2^k (1 + f), √½ ≤ 1 + f < √2 about.
@@ -342,32 +352,58 @@ fn real_log10(x: real) -> real {
     return choose(real_equal(power, x), num(whole), r);
 }
 
+/// 2^-k (1 + x) - 1 for k = ⌊log2 (1 + x)⌋ or so: neither term rounds where the other does not.
+fn split_beside_one(x: real, k: i32) -> real {
+    return real_add(scale(x, -k), rounded(add32(scale(num(1.0), -k), -1.0)));
+}
+
 /// log(1 + x), accurate near 0; -∞ at -1, NaN below.
 fn real_log1p(x: real) -> real {
     if abs(real_to_f32(x)) < 1e-17 {
         return x;
     }
     let u = add32(x, 1.0);
-    let large = real_less(num(1e18), x);
-    if log_is_special(u) || large {
-        return real_log(choose(large, x, u));
+    if log_is_special(u) {
+        return log_special(u);
     }
-    // 1 + f = 2^-k (1 + x): neither term rounds where the other does not
     let k = split_logarithm(u).exponent;
-    return log_of_split(k, real_add(scale(x, -k), rounded(add32(scale(num(1.0), -k), -1.0))));
+    return log_of_split(k, split_beside_one(x, k));
 }
 
-/// (sinh x, cosh x) from E = e^|x| - 1 and q = E / (1 + E): (E + q)/2 and 1 + E q / 2.
-fn real_sinhcosh(x: real) -> RealPair {
-    let a = real_abs(x);
-    if real_to_f32(a) > 40.0 || is_nan(x) {
-        let e = exp_scaled(a, -1);
-        return RealPair(with_sign(e, x), e);
+/// e^rest 2^count - 1 for the polynomial e^rest - 1, 0 ≤ count ≤ 64 or count < 0.
+fn expm1_of_parts(polynomial: real, count: i32) -> real {
+    return real_add(scale(polynomial, count), rounded(add32(scale(num(1.0), count), -1.0)));
+}
+
+/// (sinh x, cosh x) / 2^exponent, so that products with them overflow only where they must.
+struct ScaledWaves {
+    sinh: real,
+    cosh: real,
+    exponent: i32,
+}
+
+/// From E = e^|x| - 1 and q = E / (1 + E): (E + q)/2 and 1 + E q / 2; far out both are e^|x| / 2.
+fn scaled_sinhcosh(x: real) -> ScaledWaves {
+    if is_nan(x) {
+        return ScaledWaves(x, x, 0);
     }
-    let e = real_expm1(a);
+    let a = real_abs(x);
+    let s = split_exponent(clamped(a, EXP_END));
+    let v = expm1_polynomial(s.rest);
+    if real_to_f32(a) > 40.0 {
+        let half = scale(add32(v, 1.0), -1);
+        return ScaledWaves(with_sign(half, x), half, s.count);
+    }
+    let e = choose(real_to_f32(a) < 1e-17, a, expm1_of_parts(v, s.count));
     let q = real_div(e, add32(e, 1.0));
-    let s = scale(real_add(e, q), -1);
-    return RealPair(with_sign(s, x), add32(scale(real_mul(e, q), -1), 1.0));
+    let sinh = scale(real_add(e, q), -1);
+    return ScaledWaves(with_sign(sinh, x), add32(scale(real_mul(e, q), -1), 1.0), 0);
+}
+
+/// (sinh x, cosh x)
+fn real_sinhcosh(x: real) -> RealPair {
+    let w = scaled_sinhcosh(x);
+    return RealPair(scale(w.sinh, w.exponent), scale(w.cosh, w.exponent));
 }
 
 /// sinh x.

@@ -1,8 +1,9 @@
 // sin, cos, tan over the whole range of both wide formats, and their inverses.
 
-/// An angle a ≥ 0 as count · π/2 + rest, |rest| ≤ π/4 about.
+/// An angle a ≥ 0 as count · π/2 + rest + low, |rest| ≤ π/4 about.
 struct QuarterTurns {
     rest: real,
+    low: real,
     count: u32,
 }
 
@@ -11,7 +12,7 @@ struct QuarterTurns {
 fn quarter_turns(a: real) -> QuarterTurns {
     let size = real_to_f32(a);
     if size < 0.78539 {
-        return QuarterTurns(a, 0u);
+        return QuarterTurns(a, num(0.0), 0u);
     }
     if size > 1570.0 {
         return reduce_large(a);
@@ -22,7 +23,8 @@ fn quarter_turns(a: real) -> QuarterTurns {
     let t = rounded(real_sub(a, mul32(num(1.5707964), n)));
     let u = rounded(real_sub(t, mul32(num(-4.371139e-08), n)));
     let v = rounded(real_sub(u, mul32(num(-1.7151245e-15), n)));
-    return QuarterTurns(real_sub(v, mul32(lit(1.0562999e-23, 8.4784276e-32, 9.41521e-40), n)), u32(n));
+    let r = rest_with_low(v, real_neg(mul32(lit(1.0562999e-23, 8.4784276e-32, 9.41521e-40), n)));
+    return QuarterTurns(r.first, r.second, u32(n));
 }
 
 /// The upper 32 bits of a b.
@@ -36,153 +38,31 @@ fn multiply_high(a: u32, b: u32) -> u32 {
     return a1 * b1 + (middle >> 16u) + (other >> 16u);
 }
 
-/// The bits 32 i + 1 … 32 i + 32 after the binary point of 2/π; 0 before the point.
-fn two_over_pi(i: i32) -> u32 {
-    switch i {
-        case 0: {
-            return 0xa2f9836eu;
-        }
-        case 1: {
-            return 0x4e441529u;
-        }
-        case 2: {
-            return 0xfc2757d1u;
-        }
-        case 3: {
-            return 0xf534ddc0u;
-        }
-        case 4: {
-            return 0xdb629599u;
-        }
-        case 5: {
-            return 0x3c439041u;
-        }
-        case 6: {
-            return 0xfe5163abu;
-        }
-        case 7: {
-            return 0xdebbc561u;
-        }
-        case 8: {
-            return 0xb7246e3au;
-        }
-        case 9: {
-            return 0x424dd2e0u;
-        }
-        case 10: {
-            return 0x06492eeau;
-        }
-        case 11: {
-            return 0x09d1921cu;
-        }
-        case 12: {
-            return 0xfe1deb1cu;
-        }
-        case 13: {
-            return 0xb129a73eu;
-        }
-        case 14: {
-            return 0xe88235f5u;
-        }
-        case 15: {
-            return 0x2ebb4484u;
-        }
-        case 16: {
-            return 0xe99c7026u;
-        }
-        case 17: {
-            return 0xb45f7e41u;
-        }
-        case 18: {
-            return 0x3991d639u;
-        }
-        case 19: {
-            return 0x835339f4u;
-        }
-        case 20: {
-            return 0x9c845f8bu;
-        }
-        case 21: {
-            return 0xbdf9283bu;
-        }
-        case 22: {
-            return 0x1ff897ffu;
-        }
-        case 23: {
-            return 0xde05980fu;
-        }
-        case 24: {
-            return 0xef2f118bu;
-        }
-        case 25: {
-            return 0x5a0a6d1fu;
-        }
-        case 26: {
-            return 0x6d367ecfu;
-        }
-        case 27: {
-            return 0x27cb09b7u;
-        }
-        case 28: {
-            return 0x4f463f66u;
-        }
-        case 29: {
-            return 0x9e5fea2du;
-        }
-        case 30: {
-            return 0x7527bac7u;
-        }
-        case 31: {
-            return 0xebe5f17bu;
-        }
-        case 32: {
-            return 0x3d0739f7u;
-        }
-        case 33: {
-            return 0x8a5292eau;
-        }
-        case 34: {
-            return 0x6bfb5fb1u;
-        }
-        case 35: {
-            return 0x1f8d5d08u;
-        }
-        case 36: {
-            return 0x56033046u;
-        }
-        case 37: {
-            return 0xfc7b6babu;
-        }
-        case 38: {
-            return 0xf0cfbc20u;
-        }
-        case 39: {
-            return 0x9af4361du;
-        }
-        default: {
-            return 0u;
-        }
-    }
-}
-
-/// 32 bits of 2/π from bit `shift` of word i on.
-fn two_over_pi_from(i: i32, shift: u32) -> u32 {
-    return (two_over_pi(i) << shift) | ((two_over_pi(i + 1) >> 1u) >> (31u - shift));
-}
-
 /// m 2^e · 2/π modulo 4 in units of 2^-126, truncated, as four words: the bits of 2/π that make multiples of 4 are left
 /// out, and those below the last word (Payne and Hanek, "Radian reduction for trigonometric functions", 1983).
 fn turns_of(m: u32, e: i32) -> vec4u {
+    // 32 bits each, from the binary point on; none before it
+    var bits = array<u32, 46>(
+        0xa2f9836eu, 0x4e441529u, 0xfc2757d1u, 0xf534ddc0u, 0xdb629599u, 0x3c439041u, 0xfe5163abu, 0xdebbc561u,
+        0xb7246e3au, 0x424dd2e0u, 0x06492eeau, 0x09d1921cu, 0xfe1deb1cu, 0xb129a73eu, 0xe88235f5u, 0x2ebb4484u,
+        0xe99c7026u, 0xb45f7e41u, 0x3991d639u, 0x835339f4u, 0x9c845f8bu, 0xbdf9283bu, 0x1ff897ffu, 0xde05980fu,
+        0xef2f118bu, 0x5a0a6d1fu, 0x6d367ecfu, 0x27cb09b7u, 0x4f463f66u, 0x9e5fea2du, 0x7527bac7u, 0xebe5f17bu,
+        0x3d0739f7u, 0x8a5292eau, 0x6bfb5fb1u, 0x1f8d5d08u, 0x56033046u, 0xfc7b6babu, 0xf0cfbc20u, 0x9af4361du,
+        0u, 0u, 0u, 0u, 0u, 0u,
+    );
     // the bit of weight 2^(1 - e) is the first that matters, in units of 2: bit e - 1 after the point
     let i = (e - 2) >> 5u;
     let shift = u32(e - 2) & 31u;
-    let w0 = two_over_pi_from(i, shift);
-    let w1 = two_over_pi_from(i + 1, shift);
-    let w2 = two_over_pi_from(i + 2, shift);
-    let w3 = two_over_pi_from(i + 3, shift);
-    let w4 = two_over_pi_from(i + 4, shift);
-    let low = vec4u(m * w0, m * w1, m * w2, m * w3);
-    let high = vec4u(multiply_high(m, w1), multiply_high(m, w2), multiply_high(m, w3), multiply_high(m, w4));
+    var w = array<u32, 5>();
+    var here = select(0u, bits[clamp(i, 0, 45)], i >= 0);
+    for (var k = 0; k < 5; k++) {
+        let at = i + k + 1;
+        let next = select(0u, bits[clamp(at, 0, 45)], at >= 0);
+        w[k] = (here << shift) | ((next >> 1u) >> (31u - shift));
+        here = next;
+    }
+    let low = vec4u(m * w[0], m * w[1], m * w[2], m * w[3]);
+    let high = vec4u(multiply_high(m, w[1]), multiply_high(m, w[2]), multiply_high(m, w[3]), multiply_high(m, w[4]));
     return add_words(low, high);
 }
 
@@ -206,7 +86,7 @@ fn negate_words(a: vec4u) -> vec4u {
 /// Reduction of every finite a: the turns of its pieces, modulo 4, in fixed point.
 fn reduce_large(a: real) -> QuarterTurns {
     if !is_finite(a) {
-        return QuarterTurns(make_nan(a), 0u);
+        return QuarterTurns(make_nan(a), num(0.0), 0u);
     }
     let p = pieces_of(a);
     let low = turns_of(p.low, p.low_exponent);
@@ -232,19 +112,8 @@ fn reduce_large(a: real) -> QuarterTurns {
     let down = 31u - lead;
     let high = (t.x << lead) | ((t.y >> 1u) >> down);
     let rest = (t.y << lead) | ((t.z >> 1u) >> down);
-    return QuarterTurns(flip_if(radians_of_turns(high, rest, e - i32(lead)), negative), count);
-}
-
-/// sin r for |r| ≤ π/4.
-fn sin_near(r: real) -> real {
-    let z = real_square(r);
-    return real_add(r, real_mul(real_mul(r, z), sin_tail(z)));
-}
-
-/// cos r for |r| ≤ π/4.
-fn cos_near(r: real) -> real {
-    let z = real_square(r);
-    return add32(real_sub(real_mul(real_square(z), cos_tail(z)), scale(z, -1)), 1.0);
+    let r = radians_of_turns(high, rest, e - i32(lead));
+    return QuarterTurns(flip_if(r.first, negative), flip_if(r.second, negative), count);
 }
 
 /// (sin x, cos x) with one reduction; sin(-0) = -0, NaN at ±∞.
@@ -253,8 +122,8 @@ fn real_sincos(x: real) -> RealPair {
         return RealPair(make_nan(x), make_nan(x));
     }
     let turns = quarter_turns(real_abs(x));
-    let s = sin_near(turns.rest);
-    let c = cos_near(turns.rest);
+    let s = sin_near(turns.rest, turns.low);
+    let c = cos_near(turns.rest, turns.low);
     let odd = (turns.count & 1u) == 1u;
     let half_turn = (turns.count & 2u) != 0u;
     return RealPair(
@@ -279,8 +148,8 @@ fn real_tan(x: real) -> real {
         return make_nan(x);
     }
     let turns = quarter_turns(real_abs(x));
-    let s = sin_near(turns.rest);
-    let c = cos_near(turns.rest);
+    let s = sin_near(turns.rest, turns.low);
+    let c = cos_near(turns.rest, turns.low);
     if (turns.count & 1u) == 1u {
         return flip_if(real_div(c, s), !sign_is_set(x));
     }

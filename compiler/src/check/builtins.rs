@@ -88,10 +88,7 @@ pub fn builtins() -> &'static [Builtin] {
                 usage: "normalize(p)",
                 doc: "p / |p|",
                 arity: 1..=1,
-                build: |b, args, span| {
-                    let size = length(b, &args[0], span);
-                    b.arithmetic(Prim::Div, &args[0], &size, span)
-                },
+                build: normalized,
             },
             Builtin {
                 names: &["rotate"],
@@ -195,6 +192,41 @@ pub fn length(b: &mut Builder, value: &Value, span: Span) -> Value {
         }
         _ => return Value::Error,
     })
+}
+
+/// p/|p|, NaN at the origin. The coordinates of a direction are operations of their own: their derivatives do not cancel, as
+/// those of a quotient do, and they are numbers where the length overflows.
+fn normalized(b: &mut Builder, args: &[Value], span: Span) -> Value {
+    let size = length(b, &args[0], span);
+    let (Value::Vector(items), &Value::Scalar(r)) = (&args[0], &size) else {
+        return b.arithmetic(Prim::Div, &args[0], &size, span);
+    };
+    let point = items.as_slice();
+    let g = &mut b.graph;
+    let directions: SmallVec<[Id; 4]> = match point {
+        &[x, y, z, w] => {
+            let xyz = g.apply(Prim::Hypot3, &[x, y, z]);
+            let share = crate::table::direction(g, &[xyz, w], 0, r);
+            let mut out: SmallVec<[Id; 4]> = (0..3)
+                .map(|k| {
+                    let within = crate::table::direction(g, &[x, y, z], k, xyz);
+                    g.mul(within, share)
+                })
+                .collect();
+            out.push(crate::table::direction(g, &[xyz, w], 1, r));
+            out
+        }
+        _ => (0..point.len())
+            .map(|k| crate::table::direction(g, point, k, r))
+            .collect(),
+    };
+    let (zero, hole) = (g.real(0.0), g.real(f64::NAN));
+    let at_origin = g.apply(Prim::Equal, &[r, zero]);
+    let items = directions
+        .into_iter()
+        .map(|d| g.apply(Prim::Select, &[at_origin, hole, d]))
+        .collect();
+    Value::Vector(items)
 }
 
 fn dot(b: &mut Builder, args: &[Value], span: Span) -> Value {

@@ -35,7 +35,7 @@ pub fn standalone(
 ) -> Result<(Module, ModuleInfo, String), ModuleError> {
     let formula = &picture.formula;
     let evaluation = stable_evaluation(formula, what)?;
-    let mut linker = Linker::new(vec![number_module(precision.format())]);
+    let mut linker = Linker::new(vec![number_module(precision.into())]);
     let types = NagaTypes::insert(&mut linker.out.types);
     let arguments = arguments(program, formula, &evaluation, types);
     let [value, gradient, derivative] = function_names(&formula.name);

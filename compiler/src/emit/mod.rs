@@ -8,7 +8,7 @@ pub use text::{Target, write};
 
 use pullback_grammar::Diagnostic;
 
-use crate::lower::{Format, LowerError, Precision};
+use crate::lower::{Format, LowerError, Precision, Tier};
 use crate::module::{EvalModule, Evaluator, ModuleError, SceneModule, What};
 use crate::program::{Picture, Program};
 
@@ -56,9 +56,9 @@ impl Program {
     pub fn scene_module(
         &self,
         picture: usize,
-        precision: Precision,
+        tier: impl Into<Tier>,
     ) -> Result<SceneModule, Vec<Diagnostic>> {
-        self.with_picture(picture, |p| SceneModule::new(p, precision))
+        self.with_picture(picture, |p| SceneModule::new(p, tier))
     }
 
     /// A module that evaluates rows of numbers.
@@ -69,9 +69,9 @@ impl Program {
         &self,
         picture: usize,
         what: What,
-        precision: Precision,
+        tier: impl Into<Tier>,
     ) -> Result<EvalModule, Vec<Diagnostic>> {
-        self.with_picture(picture, |p| EvalModule::new(&p.formula, what, precision))
+        self.with_picture(picture, |p| EvalModule::new(&p.formula, what, tier))
     }
 
     /// The `f64` reference for rows of numbers.

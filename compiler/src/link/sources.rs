@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use naga::Module;
 
-use crate::lower::Format;
+use crate::lower::{Exactness, Format, Tier};
 
 /// Functions on numbers, as one text.
 const MATH: &str = concat!(
@@ -47,12 +47,8 @@ macro_rules! wide {
     };
 }
 
-/// Functions on pairs of single-precision numbers, in front of them the exact steps in the form that is exact everywhere.
-const PAIR: &str = concat!(
-    include_str!("../../shaders/wide/exact_hidden.wgsl"),
-    include_str!("../../shaders/wide/exact_dekker.wgsl"),
-    wide!("pair"),
-);
+/// Functions on pairs of single-precision numbers, but for the exact steps, which go in front.
+const PAIR: &str = wide!("pair");
 
 /// Functions on double-precision numbers.
 const DOUBLE: &str = wide!("double");
@@ -101,15 +97,25 @@ pub fn shared_module() -> &'static Module {
     MODULE.get_or_init(|| parse_wgsl(SHARED).0)
 }
 
-/// The library of functions on numbers of a format.
-pub fn number_module(format: Format) -> &'static Module {
-    static PAIRS: OnceLock<Module> = OnceLock::new();
+/// The library of functions on numbers of a tier.
+pub fn number_module(tier: Tier) -> &'static Module {
     static DOUBLES: OnceLock<Module> = OnceLock::new();
-    match format {
+    match tier.precision.format() {
         Format::Single => math_module(),
-        Format::Pair => PAIRS.get_or_init(|| parse_wgsl(PAIR).0),
+        Format::Pair => pair_module(tier.exactness),
         Format::Double => DOUBLES.get_or_init(|| parse_wgsl(DOUBLE).0),
     }
+}
+
+/// The library of functions on pairs, with a form of the exact steps.
+fn pair_module(exactness: Exactness) -> &'static Module {
+    static MODULES: [OnceLock<Module>; Exactness::ALL.len()] =
+        [const { OnceLock::new() }; Exactness::ALL.len()];
+    MODULES[exactness as usize].get_or_init(|| parse_wgsl(&pair_text(exactness)).0)
+}
+
+fn pair_text(exactness: Exactness) -> String {
+    [exactness.wgsl(), PAIR].concat()
 }
 
 /// The library of functions on numbers of single precision.
@@ -119,13 +125,13 @@ pub fn math_module() -> &'static Module {
 }
 
 impl Sources {
-    /// All of them, with the numbers of a format.
+    /// All of them, with the numbers of a tier.
     #[must_use]
-    pub fn get(format: Format) -> Self {
+    pub fn get(tier: Tier) -> Self {
         Self {
             entry: entry_module(),
             shared: shared_module(),
-            math: number_module(format),
+            math: number_module(tier),
         }
     }
 }
@@ -137,12 +143,14 @@ mod tests {
     fn every_text_parses() {
         for (name, text) in [
             ("math", MATH),
-            ("pair", PAIR),
             ("double", DOUBLE),
             ("shared", SHARED),
             ("entry", ENTRY),
         ] {
             assert_eq!(parse_wgsl(text).1, None, "{name}");
+        }
+        for form in Exactness::ALL {
+            assert_eq!(parse_wgsl(&pair_text(form)).1, None, "{form:?}");
         }
     }
 }

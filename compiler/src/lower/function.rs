@@ -5,6 +5,7 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::body::Body;
+use super::scaled::powers_in_products;
 use super::{Format, LowerError, NagaTypes, NumberTypes, Precision};
 use crate::ir::{Graph, Id, Node, Op, Prim, Schedule, Ty, expand_powers, merge_loops};
 use crate::link::{LinkError, Linker, Provider};
@@ -98,6 +99,7 @@ pub fn lower(
     let graph = graph.as_ref();
     let types = NagaTypes::insert(&mut linker.out.types);
     let format = interface.precision.format();
+    let live = graph.reachable(&roots);
     let mut lowering = Lowering {
         graph,
         types,
@@ -109,7 +111,8 @@ pub fn lower(
         leaves: interface.leaves,
         precision: interface.precision,
         linker,
-        live: graph.reachable(&roots),
+        scaled: powers_in_products(graph, &roots, &live, interface.precision),
+        live,
         pairs: FxHashMap::default(),
         values: vec![None; graph.nodes().len()],
         depths: vec![0; graph.nodes().len()],
@@ -130,9 +133,11 @@ pub(super) struct Lowering<'g, 'l, 's> {
     pub(super) body: Body,
     pub(super) inputs: &'g [Argument],
     pub(super) leaves: Leaves,
-    precision: Precision,
+    pub(super) precision: Precision,
     pub(super) linker: &'l mut Linker<'s>,
     live: Vec<bool>,
+    /// Powers that the one product computes which needs them.
+    pub(super) scaled: Vec<bool>,
     /// Results of functions that are computed in pairs, by pair function and operand.
     pub(super) pairs: FxHashMap<(&'static str, Id), Handle<Expression>>,
     pub(super) values: Vec<Option<Handle<Expression>>>,
@@ -197,7 +202,7 @@ impl Lowering<'_, '_, '_> {
     }
 
     pub(super) fn compute(&mut self, id: Id) -> Result<(), LowerError> {
-        if self.values[id.index()].is_some() {
+        if self.values[id.index()].is_some() || self.scaled[id.index()] {
             return Ok(());
         }
         let node = self.graph.node(id);
@@ -289,6 +294,11 @@ impl Lowering<'_, '_, '_> {
     }
 
     fn apply(&mut self, prim: Prim, node: &Node) -> Result<Handle<Expression>, LowerError> {
+        if prim == Prim::Mul
+            && let Some(value) = self.scaled_power(node)?
+        {
+            return Ok(value);
+        }
         let mut args: SmallVec<[Handle<Expression>; 3]> = SmallVec::new();
         for &arg in &node.args {
             args.push(self.value(arg)?);

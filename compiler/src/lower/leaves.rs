@@ -119,7 +119,7 @@ impl Lowering<'_, '_, '_> {
         }
     }
 
-    /// The k-th number of a member of the uniform `wide`: two to a `vec4<u32>`, in a vector or an array of them.
+    /// The k-th number of a member of `wide`: two to a `vec4<u32>`, in a vector or an array of them.
     fn word_number(
         &mut self,
         wide: Handle<GlobalVariable>,
@@ -145,7 +145,7 @@ impl Lowering<'_, '_, '_> {
         self.library("real_from_words", vec![words])
     }
 
-    /// Pointer to a member of a uniform that is a structure.
+    /// Pointer to a member of a buffer that is a structure.
     fn member(&mut self, uniform: Handle<GlobalVariable>, name: &str) -> Result<Value, LowerError> {
         let ty = self.linker.out.global_variables[uniform].ty;
         let naga::TypeInner::Struct { members, .. } = &self.linker.out.types[ty].inner else {

@@ -8,12 +8,15 @@ mod identifier;
 mod leaves;
 mod numbers;
 mod repeat;
+mod scaled;
+mod tier;
 mod types;
 
 pub use exactness::Exactness;
 pub use format::Format;
 pub use function::{Argument, Interface, Leaves, Output, lower};
 pub use identifier::identifier;
+pub use tier::Tier;
 pub use types::{NagaTypes, NumberTypes};
 
 use crate::link::LinkError;

@@ -43,7 +43,7 @@ impl Lowering<'_, '_, '_> {
         }
     }
 
-    /// An operator on reals or truth values.
+    /// An operator on reals or truth values; comparisons with NaN hold as IEEE 754 has it.
     pub(super) fn operator(
         &mut self,
         op: BinaryOperator,
@@ -57,6 +57,11 @@ impl Lowering<'_, '_, '_> {
             if let Some(name) = operator_name(op) {
                 return self.library(name, vec![a, b]);
             }
+        }
+        if op == BinaryOperator::NotEqual {
+            // naga writes an ordered comparison in SPIR-V, by which NaN differs from nothing
+            let equal = self.binary(BinaryOperator::Equal, a, b);
+            return Ok(self.unary(UnaryOperator::LogicalNot, equal));
         }
         Ok(self.binary(op, a, b))
     }

@@ -13,7 +13,7 @@ use crate::formula::Formula;
 use crate::ir::Ty;
 use crate::link::{Linker, Provider, number_module, parse_wgsl};
 use crate::lower::{
-    Argument, Format, Interface, LowerError, NumberTypes, Output, Precision, lower,
+    Argument, Format, Interface, LowerError, NumberTypes, Output, Precision, Tier, lower,
 };
 use crate::reference::complex::complex;
 use crate::table::Number;
@@ -60,8 +60,9 @@ pub struct EvalModule {
     pub inputs: Vec<String>,
     /// Names of the columns of a result.
     pub outputs: Vec<String>,
-    /// How rows and results are held: one `f32` a number, or two words in the wide formats.
-    pub format: Format,
+    /// What numbers are computed with. Its format is how rows and results are held: one `f32` a number, or two words in
+    /// the wide formats.
+    pub tier: Tier,
 }
 
 impl EvalModule {
@@ -69,7 +70,9 @@ impl EvalModule {
     ///
     /// # Errors
     /// It makes no sense for the formula, has too many columns, or cannot be computed on the GPU.
-    pub fn new(formula: &Formula, what: What, precision: Precision) -> Result<Self, ModuleError> {
+    pub fn new(formula: &Formula, what: What, tier: impl Into<Tier>) -> Result<Self, ModuleError> {
+        let tier = tier.into();
+        let precision = tier.precision;
         let evaluation = stable_evaluation(formula, what)?;
         let inputs = formula.columns();
         if inputs.len() > MAX_COLUMNS || evaluation.columns.len() > MAX_RESULTS {
@@ -78,7 +81,7 @@ impl EvalModule {
             ))));
         }
         let format = precision.format();
-        let mut linker = Linker::new(vec![template(format), number_module(format)]);
+        let mut linker = Linker::new(vec![template(format), number_module(tier)]);
         let outputs = evaluation.names.clone();
         let mut provider = Rows {
             formula,
@@ -94,7 +97,7 @@ impl EvalModule {
             info,
             inputs,
             outputs,
-            format,
+            tier,
         })
     }
 }

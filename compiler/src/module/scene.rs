@@ -7,7 +7,7 @@ use super::demand::Demand;
 use super::{ModuleError, validate};
 use crate::formula::Formula;
 use crate::link::{Linker, Sources};
-use crate::lower::{Format, Precision};
+use crate::lower::Tier;
 use crate::program::{Picture, SettingValue};
 use crate::scene::Scene;
 
@@ -22,8 +22,8 @@ pub struct SceneModule {
     layout: Vec<Member>,
     /// Size of the settings' uniform in bytes, a multiple of 16, never 0.
     pub settings_size: usize,
-    /// How the formula's numbers are held.
-    pub format: Format,
+    /// What the formula's numbers are computed with.
+    pub tier: Tier,
 }
 
 #[derive(Clone, Debug)]
@@ -40,17 +40,18 @@ impl SceneModule {
     ///
     /// # Errors
     /// The formula has no form that the scene needs, such as a missing derivative.
-    pub fn new(picture: &Picture, precision: Precision) -> Result<Self, ModuleError> {
-        let mut module = Self::link(picture, precision)?;
+    pub fn new(picture: &Picture, tier: impl Into<Tier>) -> Result<Self, ModuleError> {
+        let tier = tier.into();
+        let mut module = Self::link(picture, tier)?;
         naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
-        let info = validate(&module, precision)?;
+        let info = validate(&module, tier.precision)?;
         let (layout, settings_size) = layout(picture.scene);
         Ok(Self {
             module,
             info,
             layout,
             settings_size,
-            format: precision.format(),
+            tier,
         })
     }
 
@@ -58,22 +59,21 @@ impl SceneModule {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn link(picture: &Picture, precision: Precision) -> Result<Module, ModuleError> {
-        Self::splice(picture.scene.module(), &picture.formula, precision)
+    pub fn link(picture: &Picture, tier: impl Into<Tier>) -> Result<Module, ModuleError> {
+        Self::splice(picture.scene.module(), &picture.formula, tier.into())
     }
 
     /// [`Self::link`] for any template.
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn splice(
-        template: &Module,
-        formula: &Formula,
-        precision: Precision,
-    ) -> Result<Module, ModuleError> {
-        let sources = Sources::get(precision.format());
+    pub fn splice(template: &Module, formula: &Formula, tier: Tier) -> Result<Module, ModuleError> {
+        let sources = Sources::get(tier);
         let mut linker = Linker::new(vec![template, sources.entry, sources.shared, sources.math]);
-        let mut demand = Demand { formula, precision };
+        let mut demand = Demand {
+            formula,
+            precision: tier.precision,
+        };
         linker.link_entry_points(1, &mut demand)?;
         Ok(linker.out)
     }

@@ -67,14 +67,29 @@ pub fn acosh(x: f64) -> f64 {
     1.0 / ((x - 1.0).sqrt() * (x + 1.0).sqrt())
 }
 
-/// x/r for a coordinate x of a point at the distance r from the origin, and 0 there.
-pub fn direction(x: f64, r: f64) -> f64 {
+/// x/r for r = |(x, y, z)|, and 0 at the origin. Where r overflows, that of a quarter of the point.
+pub fn direction(x: f64, y: f64, z: f64, r: f64) -> f64 {
+    if r.is_infinite() && x.is_finite() && y.is_finite() && z.is_finite() {
+        let (x, y, z) = (0.25 * x, 0.25 * y, 0.25 * z);
+        return x / x.hypot(y.hypot(z));
+    }
     if r == 0.0 { 0.0 } else { x / r }
 }
 
 /// 1 - z with the sign of a zero turned, and 1 + z: the sides of the cuts.
 fn sides(z: Complex) -> (Complex, Complex) {
     (complex(1.0 - z.re, -z.im), complex(1.0 + z.re, z.im))
+}
+
+/// Of an even function that is real on the real axis, so that it is both bit for bit: a product is not the same in both
+/// orders of its factors. f(-z̄) is the conjugate of f(z).
+fn in_right_half(z: Complex, f: impl Fn(Complex) -> Complex) -> Complex {
+    let value = f(complex(z.re.abs(), z.im));
+    if z.re.is_sign_negative() {
+        value.conj()
+    } else {
+        value
+    }
 }
 
 /// 1/(1 + z²).
@@ -84,14 +99,18 @@ pub fn complex_atan(z: Complex) -> Complex {
 
 /// 1/(1 - z²).
 pub fn complex_atanh(z: Complex) -> Complex {
-    let (below, above) = sides(z);
-    below.inverse() * above.inverse()
+    in_right_half(z, |z| {
+        let (below, above) = sides(z);
+        below.inverse() * above.inverse()
+    })
 }
 
 /// 1/(√(1 - z) √(1 + z)), whose cuts are those of arcsin (Kahan 1987).
 pub fn complex_asin(z: Complex) -> Complex {
-    let (below, above) = sides(z);
-    (below.sqrt() * above.sqrt()).inverse()
+    in_right_half(z, |z| {
+        let (below, above) = sides(z);
+        (below.sqrt() * above.sqrt()).inverse()
+    })
 }
 
 /// 1/(√(1 + i z) √(1 - i z)), whose cuts are those of arsinh.

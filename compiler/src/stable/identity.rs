@@ -19,6 +19,7 @@ impl Pass {
                 found.or_else(|| self.root_of_squares(g, a))
             }
             (Prim::Log, &[a]) => self.log_of(g, a),
+            (Prim::Arg, &[a]) => self.arg_of(g, a),
             (Prim::Mul, &[a, b]) => {
                 let product = self.exp_product(g, a, b, 1.0);
                 product.or_else(|| self.constants(g, Prim::Mul, a, b))
@@ -28,6 +29,7 @@ impl Pass {
                 let quotient = quotient.or_else(|| self.exp_ratio(g, a, b));
                 let quotient = quotient.or_else(|| self.tan_half(g, a, b));
                 let quotient = quotient.or_else(|| self.ratio(g, a, b));
+                let quotient = quotient.or_else(|| self.in_range(g, a, b));
                 let quotient = quotient.or_else(|| self.cardinal(g, id));
                 quotient.or_else(|| self.constants(g, Prim::Div, a, b))
             }
@@ -92,6 +94,7 @@ impl Pass {
             (Some(Prim::Exp), &[x]) if is_real(g, x) && self.on(Rule::LogPower) => {
                 self.by(Rule::LogPower, x)
             }
+            (Some(Prim::Exp), &[z]) => self.log_of_exp(g, z),
             (Some(Prim::PowInt(n)), &[x])
                 if n % 2 == 0 && is_real(g, x) && self.on(Rule::LogPower) =>
             {

@@ -18,6 +18,7 @@ mod pass;
 mod polynomial;
 mod powers;
 mod quotient;
+mod range;
 mod remainder;
 mod rule;
 mod sum;

@@ -170,9 +170,14 @@ impl Pass {
     /// Notes what has cancelled.
     pub(super) fn lose(&mut self, p: &Polynomial) {
         for (atom, _) in p.lost.iter().flatten() {
-            if !self.lost.contains(atom) {
-                self.lost.push(*atom);
-            }
+            self.lose_atom(*atom);
+        }
+    }
+
+    /// Notes one that has cancelled.
+    pub(super) fn lose_atom(&mut self, atom: Id) {
+        if !self.lost.contains(&atom) {
+            self.lost.push(atom);
         }
     }
 

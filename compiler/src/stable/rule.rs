@@ -232,6 +232,18 @@ rules! {
         "f(a) minus the first terms of its Taylor series = the rest of the series",
         "sin a - a, sinh a - a, exp a - 1 - a, expm1 a - a, cos a - 1 + a²/2, cosh a - 1 - a²/2, tan a - a; guarded by |a| < 1, else as written. A zero has the sign of the rest",
         "DLMF 4.19, 4.33";
+    PowerQuotient "power-quotient", true, "real and complex":
+        "aᵐ·b/aⁿ = aᵐ⁻ⁿ·b, exp(a)·b/exp a = b",
+        "of a sum over one product, too, where every term has the factor; where m or n is above 1 or the factor is a function that overflows before its argument does. A logarithmic derivative f'/f of a power needs no power. The limit instead of NaN where aⁿ is 0 or infinite, so at a = 0, too",
+        "laws of exponents";
+    SquareQuotient "square-quotient", true, "real":
+        "b·a²/(a² + c) = b·(a·s)²/((a·s)² + c·s²), b/(a² + c) = (b·s)/((a·s)² + c·s²)·s",
+        "a and c real, b of either kind; c below 2⁶⁰, sums of several squares, too; s = 2⁻⁶⁴ where |a| > 2⁶⁰, and 2⁶⁴ where |a| < 2⁻⁶⁰ if c is 0, else 1: multiplication by it is exact. Holds to |a| = 2⁵⁷⁵; beyond, and for infinite a, NaN as written. The points of the Riemann sphere are such quotients",
+        "exact scaling; W. Kahan 1987";
+    ArgExp "arg-exp", true, "complex":
+        "arg exp z = atan2(sin im z, cos im z), log exp z = re z + i·arg exp z",
+        "everywhere, the logarithm after differentiation only; with the sign of im z where that is 0; exp z is not formed, and cannot over- or underflow. NaN where re z or im z is; the limit where re z is infinite",
+        "DLMF 4.2";
 }
 
 impl Rule {

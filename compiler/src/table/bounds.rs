@@ -12,8 +12,8 @@ const TABLE: &str = include_str!("bounds.tsv");
 /// Places of the bounds in a line.
 const PLACES: usize = 8;
 
-/// How an error is divided.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// How an error is divided; the sharpest first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Metric {
     /// By the unit of each component of the result.
     #[default]

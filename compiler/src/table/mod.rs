@@ -226,7 +226,7 @@ pub fn by_name(name: &str) -> Option<&'static Row> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lower::Format;
+    use crate::lower::Precision;
 
     #[test]
     fn names_and_mnemonics_are_unique() {
@@ -246,14 +246,14 @@ mod tests {
     /// Every library function that a row names exists in the shader library of every format.
     #[test]
     fn shader_functions_exist() {
-        for format in [Format::Single, Format::Pair, Format::Double] {
-            let known: Vec<&str> = crate::link::number_module(format)
+        for precision in Precision::ALL {
+            let known: Vec<&str> = crate::link::number_module(precision.into())
                 .functions
                 .iter()
                 .filter_map(|(_, f)| f.name.as_deref())
                 .collect();
             let missing: Vec<&str> = needed().filter(|name| !known.contains(name)).collect();
-            assert!(missing.is_empty(), "{format:?} lacks {missing:?}");
+            assert!(missing.is_empty(), "{precision:?} lacks {missing:?}");
         }
     }
 

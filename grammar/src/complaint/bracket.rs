@@ -155,13 +155,16 @@ impl Parser<'_> {
         true
     }
 
-    /// How many tokens stand before the `}` that closes the braces whose inside begins `from` tokens on, if that comes soon and no `:` is among them.
+    /// How many tokens stand before the `}` that closes the braces whose inside begins `from` tokens on, if that comes
+    /// soon and neither a `:` nor the end of a bracket around them is among them.
     pub(crate) fn end_of_list(&self, from: usize) -> Option<usize> {
+        const SOON: usize = 60;
         let mut depth = 0_usize;
-        for n in 0..60 {
-            match self.ahead(from + n) {
+        for (n, token) in self.tokens_ahead(from).iter().take(SOON).enumerate() {
+            match token.kind {
                 TokenKind::RBrace if depth == 0 => return Some(n),
-                TokenKind::Colon | TokenKind::End => return None,
+                TokenKind::Colon => return None,
+                TokenKind::RParen if depth == 0 => return None,
                 TokenKind::LBrace | TokenKind::LParen => depth += 1,
                 TokenKind::RBrace | TokenKind::RParen => depth = depth.saturating_sub(1),
                 _ => {}

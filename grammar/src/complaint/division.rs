@@ -51,13 +51,17 @@ impl Parser<'_> {
         );
     }
 
-    /// `4/π sin(x)`: the division stands close, the product apart.
+    /// `4/π sin(x)`: the division stands close, the product apart. A line may begin with the `/`.
     fn is_spaced_as_read(&self, lhs: Span, rhs: Span, factors: Span) -> bool {
-        let between = |from: Span, to: Span| Span {
-            start: from.end.min(to.start),
-            end: to.start,
+        let between = |from: Span, to: Span| {
+            let start = from.end.min(to.start);
+            Span::new(start, to.start).text(self.text)
         };
-        let spaces = |place: Span| place.text(self.text).contains(char::is_whitespace);
-        !spaces(between(lhs, rhs)) && spaces(between(rhs, factors))
+        let sign = between(lhs, rhs);
+        let sign = match sign.rfind(['\n', '\r']) {
+            Some(end) => sign.get(end..).unwrap_or_default().trim_start(),
+            None => sign,
+        };
+        !sign.contains(char::is_whitespace) && between(rhs, factors).contains(char::is_whitespace)
     }
 }

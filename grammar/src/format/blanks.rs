@@ -86,7 +86,8 @@ pub(super) fn blank_between(
         || gap
 }
 
-/// Sets blanks around the `/` of products that have a `*`, too: `a * b / c`, but `a b/c`.
+/// Sets blanks around the `/` of products that have a `*`, too: `a * b / c`, but `a b/c`; and `a * b/c d`, where the
+/// blanks say that d is no part of the divisor.
 pub(super) fn even_out_division(run: &mut [Piece<'_>]) {
     let mut start = 0;
     while start < run.len() {
@@ -94,7 +95,8 @@ pub(super) fn even_out_division(run: &mut [Piece<'_>]) {
         let rest = run.get(start..).unwrap_or_default();
         let length = rest.iter().position(ends).unwrap_or(rest.len());
         let product = run.get_mut(start..start + length).unwrap_or_default();
-        if product.iter().any(|piece| piece.kind == TokenKind::Star) {
+        let multiplies = product.iter().any(|piece| piece.kind == TokenKind::Star);
+        if multiplies && !has_factor_apart(product) {
             let mut behind = false;
             for piece in product {
                 let divides = piece.kind == TokenKind::Slash;
@@ -104,6 +106,18 @@ pub(super) fn even_out_division(run: &mut [Piece<'_>]) {
         }
         start += length + 1;
     }
+}
+
+/// Whether a factor without a sign stands apart behind a division.
+fn has_factor_apart(product: &[Piece<'_>]) -> bool {
+    let is_sign = |piece: &Piece| matches!(piece.kind, TokenKind::Star | TokenKind::Slash);
+    let mut parts = product.chunk_by(|_, next| !is_sign(next));
+    parts.any(|part| {
+        let divides = part
+            .first()
+            .is_some_and(|piece| piece.kind == TokenKind::Slash);
+        divides && part.iter().skip(2).any(|piece| piece.blank)
+    })
 }
 
 /// Whether no product goes on over this piece.

@@ -4,17 +4,15 @@
 //! between them and where lines end. A statement with something in another notation is written anew.
 
 mod blanks;
-mod convert;
+mod foreign;
 mod lines;
 mod pieces;
 
-use std::collections::HashSet;
-
 use crate::Span;
-use crate::ast::Item;
 use crate::parse::{Reading, read};
+use crate::printer::print_item_of;
 use crate::token::{TokenKind, comments};
-use convert::Foreign;
+use foreign::Foreign;
 use pieces::{Roles, Source};
 
 /// The canonical text of a file with its comments and single blank lines; nothing where the file has errors.
@@ -35,31 +33,17 @@ pub fn format(text: &str, is_function: &dyn Fn(&str) -> bool) -> Option<String> 
     if reading.parsed.has_errors() {
         return None;
     }
-    let file = &reading.parsed.file;
-    let defined: HashSet<&str> = file.items.iter().filter_map(function_name).collect();
-    let is_known = |name: &str| is_function(name) || defined.contains(name);
-    Some(write(text, &reading, &|item| {
-        convert::lines(&file.exprs, item, &is_known)
-    }))
-}
-
-/// The name of the function that a statement defines.
-fn function_name(item: &Item) -> Option<&str> {
-    match item {
-        Item::Function(function) => Some(&function.name.text),
-        _ => None,
+    if reading.foreign.is_empty() {
+        return Some(write(text, &reading));
     }
+    // What is written anew is read again with the whole file around it: its definitions say what calls are.
+    let ours = write(text, &reading);
+    let reading = read(&ours, is_function);
+    Some(write(&ours, &reading))
 }
 
-/// The canonical text of a text without other notations.
-fn unconverted(text: &str, is_function: &dyn Fn(&str) -> bool) -> Option<String> {
-    let reading = read(text, is_function);
-    let is_ours = !reading.parsed.has_errors() && reading.foreign.is_empty();
-    is_ours.then(|| write(text, &reading, &|_| String::new()))
-}
-
-/// The canonical text of what has been read; `convert` writes a statement anew.
-fn write(text: &str, reading: &Reading, convert: &dyn Fn(&Item) -> String) -> String {
+/// The canonical text of what has been read. A statement in another notation is written anew, on one line.
+fn write(text: &str, reading: &Reading) -> String {
     let source = Source {
         text,
         roles: Roles::of(&reading.parsed.file.exprs),
@@ -99,7 +83,7 @@ fn write(text: &str, reading: &Reading, convert: &dyn Fn(&Item) -> String) -> St
             inside
                 .iter()
                 .for_each(|comment| page.comment_alone(*comment));
-            let lines = convert(item);
+            let lines = print_item_of(text, &reading.parsed.file.exprs, item);
             let has_sign = lines.starts_with(['-', '+']);
             page.statement(&lines, span, has_sign);
             continue;

@@ -24,8 +24,8 @@ use crate::layout::{definition_begins, goes_on, wants_more};
 use crate::token::{Token, TokenKind, kind_of_word};
 use crate::{Diagnostic, Span};
 
-use names::function_of;
 pub(crate) use names::is_conversion;
+use names::{function_of, is_namespace, is_type_mark};
 
 /// The tokens of a text in this language.
 pub(crate) struct Pasted {
@@ -87,7 +87,8 @@ pub(crate) fn translate(text: &str, tokens: Vec<Token>) -> Pasted {
 struct Facts {
     /// For each `{`: whether `:` stands between it and its `}`, outside of other brackets, as in our lists of cases.
     cases: HashSet<usize>,
-    /// Short names that stand somewhere else than directly behind a number: those before a bracket, and others.
+    /// Names such as `f` and `np`, which mean something elsewhere, that stand somewhere else than directly behind a
+    /// number: those before a bracket, and others.
     called: HashSet<String>,
     values: HashSet<String>,
     /// Whether every `$` has a partner.
@@ -136,7 +137,10 @@ impl Facts {
         name: &Token,
         after: [Option<TokenKind>; 2],
     ) {
-        const LONGEST: u32 = 6;
+        let word = name.span.text(text);
+        if !(is_type_mark(word, false) || is_namespace(word)) {
+            return;
+        }
         let is_number = |token: Option<&Token>| token.is_some_and(|t| t.kind == TokenKind::Number);
         let is_suffix = match before[0] {
             Some(before) if before.span.end == name.span.start => {
@@ -146,7 +150,7 @@ impl Facts {
             Some(point) => point.kind == TokenKind::Dot && !is_number(before[1]),
             None => false,
         };
-        if is_suffix || name.span.end - name.span.start > LONGEST {
+        if is_suffix {
             return;
         }
         let found = match after {
@@ -154,7 +158,6 @@ impl Facts {
             [Some(TokenKind::Dot), _] | [Some(TokenKind::Colon), Some(TokenKind::Colon)] => return,
             _ => &mut self.values,
         };
-        let word = name.span.text(text);
         if !found.contains(word) {
             found.insert(word.to_owned());
         }

@@ -1,9 +1,9 @@
 //! The pictures of the benchmark, and the shaders that draw them.
 
 use naga::Module;
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use pullback_compiler::link::{Linker, Provider, Sources, parse_wgsl};
-use pullback_compiler::lower::{Format, LowerError, Precision};
+use pullback_compiler::lower::{LowerError, Precision, Tier};
 use pullback_compiler::scene::Space;
 use pullback_compiler::{Picture, SceneModule, compile};
 
@@ -83,6 +83,7 @@ pub struct Prepared {
 pub struct Shader {
     pub name: &'static str,
     pub module: Module,
+    pub info: ModuleInfo,
 }
 
 impl Case {
@@ -98,17 +99,20 @@ impl Case {
             Shader {
                 name: "accurate",
                 module: accurate.module,
+                info: accurate.info,
             },
             Shader {
                 name: "fast",
                 module: fast.module,
+                info: fast.info,
             },
         ];
         for method in self.methods {
-            let module = twin(picture, &[method.text, self.formula].concat())?;
+            let (module, info) = twin(picture, &[method.text, self.formula].concat())?;
             shaders.push(Shader {
                 name: method.name,
                 module,
+                info,
             });
         }
         let [x, y, _] = picture.setting("center").unwrap_or_default().to_array();
@@ -127,7 +131,7 @@ impl Case {
 }
 
 /// The picture's scene with functions of a hand-written text in place of its stubs.
-fn twin(picture: &Picture, text: &str) -> Result<Module, String> {
+fn twin(picture: &Picture, text: &str) -> Result<(Module, ModuleInfo), String> {
     /// Nothing is generated.
     struct ByHand;
     impl Provider for ByHand {
@@ -148,7 +152,7 @@ fn twin(picture: &Picture, text: &str) -> Result<Module, String> {
         entry,
         shared,
         math,
-    } = Sources::get(Format::Single);
+    } = Sources::get(Tier::default());
     let sources = vec![picture.scene.module(), &by_hand, entry, shared, math];
     let mut linker = Linker::new(sources);
     linker
@@ -156,8 +160,8 @@ fn twin(picture: &Picture, text: &str) -> Result<Module, String> {
         .map_err(|e| format!("{e:?}"))?;
     let mut module = linker.out;
     naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
-    Validator::new(ValidationFlags::all(), Capabilities::empty())
+    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)
         .map_err(|e| format!("{e:?}"))?;
-    Ok(module)
+    Ok((module, info))
 }

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use pullback_compiler::lower::Format;
+use pullback_compiler::lower::Tier;
 use pullback_runtime::image_file::{Metadata, write_png};
 use pullback_runtime::{AdapterChoice, Error, Gpu, Pipeline, Size};
 
@@ -180,7 +180,7 @@ fn measure(
         let stages: Vec<Stage> = prepared
             .shaders
             .iter()
-            .map(|shader| canvas.stage(&shader.module, Format::Single, pipeline))
+            .map(|shader| canvas.stage(&shader.module, &shader.info, Tier::default(), pipeline))
             .collect::<Result<_, _>>()?;
         let drawn: Vec<Vec<u8>> = stages
             .iter()

@@ -1,13 +1,13 @@
 //! Drawing the same picture again and again on a device, timed.
 
-use std::borrow::Cow;
 use std::sync::mpsc;
 use std::time::Instant;
 
 use naga::Module;
-use pullback_runtime::{Error, Gpu, Pipeline};
+use naga::valid::ModuleInfo;
+use pullback_runtime::{Error, Gpu, Pipeline, shader};
 
-use pullback_compiler::lower::Format;
+use pullback_compiler::lower::{Format, Tier};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
@@ -57,16 +57,17 @@ enum Pass {
 impl Canvas {
     pub fn new(gpu: &Gpu, given: &Uniforms, [width, height]: [u32; 2]) -> Result<Self, Error> {
         let device = gpu.device();
-        let uniform = |bytes: &[u8]| {
+        let filled = |bytes: &[u8], usage: wgpu::BufferUsages| {
             let buffer = device.create_buffer(&wgpu::BufferDescriptor {
                 label: None,
                 size: bytes.len() as u64,
-                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                usage: usage | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             });
             gpu.queue().write_buffer(&buffer, 0, bytes);
             buffer
         };
+        let uniform = |bytes: &[u8]| filled(bytes, wgpu::BufferUsages::UNIFORM);
         let [x, y] = given.center.map(|c| c as f32);
         let pixel = given.height / f64::from(height);
         let floats = |f: [f32; 4]| f.map(f32::to_bits);
@@ -83,7 +84,7 @@ impl Canvas {
             numbers.extend(&given.params);
             numbers.resize(4 + 64, 0.0);
             let words: Vec<[u32; 2]> = numbers.into_iter().map(|n| format.words(n)).collect();
-            uniform(bytemuck::cast_slice(&words))
+            filled(bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE)
         };
         gpu.guarded("allocation", || Self {
             gpu: gpu.clone(),
@@ -129,22 +130,19 @@ impl Canvas {
     pub fn stage(
         &self,
         module: &Module,
-        format: Format,
+        info: &ModuleInfo,
+        tier: Tier,
         pipeline: Pipeline,
     ) -> Result<Stage, Error> {
-        let device = self.gpu.device();
-        let source = wgpu::ShaderSource::Naga(Cow::Owned(module.clone()));
+        let format = tier.precision.format();
         let start = Instant::now();
-        let pass = self.gpu.guarded("compiling a pipeline", || {
-            let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: None,
-                source,
-            });
-            match pipeline {
+        let shader = shader::load(&self.gpu, module, info, tier)?;
+        let pass = self
+            .gpu
+            .guarded("compiling a pipeline", || match pipeline {
                 Pipeline::Compute => Pass::Compute(self.compute(&shader)),
                 Pipeline::Fragment => Pass::Fragment(self.fragment(&shader)),
-            }
-        })?;
+            })?;
         let built = start.elapsed().as_secs_f64();
         let bindings = self.gpu.guarded("binding", || self.bind(&pass, format))?;
         Ok(Stage {
@@ -155,6 +153,10 @@ impl Canvas {
     }
 
     /// A pipeline that another canvas has made, for the uniforms and the size of this one.
+    #[allow(
+        dead_code,
+        reason = "for the benchmark of tiers, which shares this file"
+    )]
     pub fn moved(&self, stage: &Stage, format: Format) -> Result<Stage, Error> {
         let pass = stage.pass.clone();
         let bindings = self.gpu.guarded("binding", || self.bind(&pass, format))?;
@@ -178,15 +180,21 @@ impl Canvas {
         };
         let stages = match pipeline {
             Pipeline::Compute => wgpu::ShaderStages::COMPUTE,
-            Pipeline::Fragment => wgpu::ShaderStages::VERTEX_FRAGMENT,
+            Pipeline::Fragment => wgpu::ShaderStages::FRAGMENT,
         };
-        let mut entries: Vec<_> = [0, 1, 2, 4]
+        let mut entries: Vec<_> = [0, 1, 2, 3]
             .into_iter()
-            .map(|k| entry(k, stages, wgpu::BufferBindingType::Uniform))
+            .map(|k| {
+                let ty = match k {
+                    3 => wgpu::BufferBindingType::Storage { read_only: true },
+                    _ => wgpu::BufferBindingType::Uniform,
+                };
+                entry(k, stages, ty)
+            })
             .collect();
         if pipeline == Pipeline::Compute {
             entries.push(entry(
-                3,
+                4,
                 stages,
                 wgpu::BufferBindingType::Storage { read_only: false },
             ));
@@ -253,10 +261,10 @@ impl Canvas {
             Format::Double => &self.doubles,
         };
         let mut buffers: Vec<(u32, &wgpu::Buffer)> = (0..).zip(&self.uniforms).collect();
-        buffers.push((4, wide));
+        buffers.push((3, wide));
         let pipeline = match pass {
             Pass::Compute(_) => {
-                buffers.push((3, &self.image));
+                buffers.push((4, &self.image));
                 Pipeline::Compute
             }
             Pass::Fragment(_) => Pipeline::Fragment,

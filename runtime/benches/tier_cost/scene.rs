@@ -3,7 +3,7 @@
 use pullback_compiler::lower::{Format, Precision};
 use pullback_compiler::scene::Space;
 use pullback_compiler::{Program, compile};
-use pullback_runtime::{Gpu, Pipeline, Size, View, fill_in_scale};
+use pullback_runtime::{Capabilities, Gpu, Pipeline, Size, View, fill_in_scale};
 
 use crate::stage::{Canvas, Stage, Uniforms};
 
@@ -24,8 +24,9 @@ impl Scene {
     pub fn new(gpu: &Gpu, text: &str) -> Result<Self, String> {
         let program = compile(text).program.ok_or("the formula has errors")?;
         let module = |precision| {
+            let tier = Capabilities::tier(gpu, precision).map_err(|e| e.to_string())?;
             program
-                .scene_module(0, precision)
+                .scene_module(0, tier)
                 .map_err(|e| e[0].message.clone())
         };
         let first = module(Precision::Fast)?;
@@ -37,11 +38,11 @@ impl Scene {
                 stages.push(None);
                 continue;
             }
-            let format = precision.format();
+            let scene = module(precision)?;
             let stage = canvas
-                .stage(&module(precision)?.module, format, Pipeline::Compute)
+                .stage(&scene.module, &scene.info, scene.tier, Pipeline::Compute)
                 .map_err(|e| e.to_string())?;
-            stages.push(Some((format, stage)));
+            stages.push(Some((precision.format(), stage)));
         }
         Ok(Self {
             gpu: gpu.clone(),

@@ -4,6 +4,8 @@
 //! left out: x + t f(s) replaces s, where t is a uniform that is 0 and s stays x. The same loop without f is subtracted.
 //! Tiers take turns, and the shortest of all turns counts: other work on the machine only adds.
 
+use std::sync::{Mutex, PoisonError};
+
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{EvalModule, What};
 
@@ -12,7 +14,7 @@ use super::random::{Random, Spread};
 use super::stopwatch::{Clock, Timed};
 use super::subjects::{Subject, formula};
 use super::tables::Domain;
-use crate::{Error, Gpu};
+use crate::{Capabilities, Error, Gpu};
 
 /// Most steps of a loop (docs/limits.md).
 const MOST_STEPS: f64 = 100_000.0;
@@ -83,11 +85,16 @@ impl<'g> Meter<'g> {
         self.clock.is_some()
     }
 
-    /// The cost of a function on each tier.
+    /// The cost of a function on each tier. Timing waits for `alone`.
     ///
     /// # Errors
     /// It cannot be evaluated on this device; in words.
-    pub fn costs(&self, subject: &Subject, tiers: &[Precision]) -> Result<Vec<Cost>, String> {
+    pub fn costs(
+        &self,
+        subject: &Subject,
+        tiers: &[Precision],
+        alone: &Mutex<()>,
+    ) -> Result<Vec<Cost>, String> {
         let points = points(subject)?;
         let mut all = vec![Precision::Fast];
         all.extend(tiers.iter().filter(|&&tier| tier != Precision::Fast));
@@ -96,6 +103,10 @@ impl<'g> Meter<'g> {
             .map(|&tier| self.loops(subject, tier, &points))
             .collect::<Result<_, _>>()?;
         let second = &points[0].params;
+        let _timing = alone.lock().unwrap_or_else(PoisonError::into_inner);
+        for one in &mut loops {
+            one.steps = self.steps(&one.full, second)?;
+        }
         for _ in 0..self.rounds {
             for one in &mut loops {
                 let evaluations = one.steps * f64::from(self.threads);
@@ -126,29 +137,33 @@ impl<'g> Meter<'g> {
     ) -> Result<Loops<'_>, String> {
         let timed = |step: &str| {
             let formula = formula(&program(subject, step))?;
+            let best = Capabilities::tier(self.gpu, tier).map_err(|e| e.to_string())?;
             let module =
-                EvalModule::new(&formula, What::Value, tier).map_err(|e| format!("{e:?}"))?;
+                EvalModule::new(&formula, What::Value, best).map_err(|e| format!("{e:?}"))?;
             let rows = rows(points, tier, self.threads as usize);
             Timed::new(self.gpu, self.clock.as_ref(), &module, &rows, self.threads)
                 .map_err(|error| error.to_string())
         };
-        let mut loops = Loops {
+        Ok(Loops {
             full: timed(call(subject))?,
             empty: timed("s")?,
             steps: FIRST_STEPS,
             whole: f64::INFINITY,
             idle: f64::INFINITY,
-        };
+        })
+    }
+
+    /// Steps that take as long as a dispatch should.
+    fn steps(&self, full: &Timed, second: &[f64]) -> Result<f64, String> {
         // the first dispatch of a pipeline says little; the second is believed
-        let second = &points[0].params;
         let trial = |steps: f64| {
-            let params = [&[0.0, steps], second.as_slice()].concat();
-            loops.full.seconds(&params).map_err(|e| e.to_string())
+            let params = [&[0.0, steps], second].concat();
+            full.seconds(&params).map_err(|e| e.to_string())
         };
         trial(1.0)?;
         let once = trial(FIRST_STEPS)?.max(1e-9);
         let foreseen = FIRST_STEPS * self.aim / once;
-        loops.steps = if foreseen < MOST_STEPS / 64.0 {
+        let steps = if foreseen < MOST_STEPS / 64.0 {
             foreseen
         } else {
             // too short to be believed: most of it is the dispatch
@@ -156,8 +171,7 @@ impl<'g> Meter<'g> {
             let twice = trial(steps.clamp(1.0, MOST_STEPS).floor())?.max(1e-9);
             steps * self.aim / twice
         };
-        loops.steps = loops.steps.clamp(2.0, MOST_STEPS).floor();
-        Ok(loops)
+        Ok(steps.clamp(2.0, MOST_STEPS).floor())
     }
 }
 

@@ -6,7 +6,7 @@ use pullback_compiler::{EvalModule, Evaluator, What};
 
 use super::error::Format;
 use crate::evaluate::Surroundings;
-use crate::{Error, Gpu, GpuEvaluator};
+use crate::{Capabilities, Error, Gpu, GpuEvaluator};
 
 /// Arguments and parameters of one evaluation.
 #[derive(Clone, Debug)]
@@ -63,8 +63,8 @@ impl Machine {
                 Ok(points.iter().map(row).collect())
             }
             Self::Gpu(gpu, precision) => {
-                let module =
-                    EvalModule::new(formula, what, *precision).map_err(|e| format!("{e:?}"))?;
+                let tier = Capabilities::tier(gpu, *precision).map_err(|e| e.to_string())?;
+                let module = EvalModule::new(formula, what, tier).map_err(|e| format!("{e:?}"))?;
                 on_gpu(gpu, &module, points).map_err(|e| e.to_string())
             }
         }

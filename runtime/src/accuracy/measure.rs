@@ -1,7 +1,8 @@
 //! One function on one machine: the largest errors of its value and derivative.
 
 use pullback_compiler::What;
-use pullback_compiler::table::{Derivative, Metric};
+use pullback_compiler::formula::Formula;
+use pullback_compiler::table::{Bound, Derivative, Metric, bounds_of};
 
 use super::error::{Format, Judge};
 use super::evaluators::{Machine, Point};
@@ -116,41 +117,91 @@ pub(super) fn demand(subject: &Subject) -> What {
 /// # Errors
 /// The machine cannot evaluate it; in words.
 pub fn measure(subject: &Subject, machine: &Machine) -> Result<Measured, String> {
-    let formula = formula(&subject.source)?;
-    let points: Vec<Point> = subject
-        .cases
-        .iter()
-        .map(|c| Point {
+    let run = Run::new(subject, machine)?;
+    let values = machine.run(&run.formula, What::Value, &run.points)?;
+    run.judged(&values, &run.slopes()?)
+}
+
+/// Runs every case of a function once, for the value as it comes with the derivative, and the derivative: half the work of
+/// a shader compiler.
+///
+/// # Errors
+/// The machine cannot evaluate it; in words.
+pub fn measure_together(subject: &Subject, machine: &Machine) -> Result<Measured, String> {
+    let run = Run::new(subject, machine)?;
+    let slopes = run.slopes()?;
+    let columns = run.formula.ty.columns();
+    let values = match &slopes {
+        Some(both) => both.iter().map(|row| row[..columns].to_vec()).collect(),
+        None => machine.run(&run.formula, What::Value, &run.points)?,
+    };
+    run.judged(&values, &slopes)
+}
+
+/// A function on a machine, and where it is evaluated.
+struct Run<'s> {
+    subject: &'s Subject,
+    machine: &'s Machine,
+    formula: Formula,
+    points: Vec<Point>,
+}
+
+impl<'s> Run<'s> {
+    fn new(subject: &'s Subject, machine: &'s Machine) -> Result<Self, String> {
+        let point = |c: &Case| Point {
             args: c.args.clone(),
             params: c.params.clone(),
-        })
-        .collect();
-    let columns = formula.ty.columns();
-    let values = machine.run(&formula, What::Value, &points)?;
-    let judged = |results: &[Vec<f64>], from: usize, of: fn(&Case) -> &[Expected]| {
-        Metric::ALL.map(|metric| judge(subject, machine.format(), results, from, of, metric))
-    };
-    let value = judged(&values, 0, |c| &c.value);
-    if matches!(subject.row.derivative, Derivative::Missing) {
-        return match machine.run(&formula, demand(subject), &points) {
-            Ok(_) => Err("there is a derivative, but no rule".to_owned()),
-            Err(_) => Ok(Measured {
-                value,
-                derivative: None,
-            }),
         };
+        Ok(Self {
+            subject,
+            machine,
+            formula: formula(&subject.source)?,
+            points: subject.cases.iter().map(point).collect(),
+        })
     }
-    let slopes = machine.run(&formula, demand(subject), &points)?;
-    // where the value of binary32 overflows, what is computed from it is not judged
-    let slopes_of: fn(&Case) -> &[Expected] = |case| {
-        if case.value.iter().any(overflows) {
-            &[]
-        } else {
-            &case.derivative
+
+    /// Values with derivatives; none where there is no rule.
+    fn slopes(&self) -> Result<Option<Vec<Vec<f64>>>, String> {
+        let found = self
+            .machine
+            .run(&self.formula, demand(self.subject), &self.points);
+        match (self.subject.row.derivative, found) {
+            (Derivative::Missing, Ok(_)) => Err("there is a derivative, but no rule".to_owned()),
+            (Derivative::Missing, Err(_)) => Ok(None),
+            (_, found) => found.map(Some),
         }
-    };
-    let derivative = Some(judged(&slopes, columns, slopes_of));
-    Ok(Measured { value, derivative })
+    }
+
+    fn judged(
+        &self,
+        values: &[Vec<f64>],
+        slopes: &Option<Vec<Vec<f64>>>,
+    ) -> Result<Measured, String> {
+        let format = self.machine.format();
+        let declared = bounds_of(self.subject.word, self.subject.domain == Domain::Complex);
+        let judged = |results: &[Vec<f64>], from: usize, of: fn(&Case) -> &[Expected]| {
+            // what the reference evaluator is worth, which judges the cases of a sweep
+            let swept = declared.and_then(|bounds| match from {
+                0 => bounds.value(None),
+                _ => bounds.derivative(None),
+            });
+            Metric::ALL.map(|metric| judge(self.subject, format, results, from, of, metric, swept))
+        };
+        // where the value of binary32 overflows, what is computed from it is not judged
+        let slopes_of: fn(&Case) -> &[Expected] = |case| {
+            if case.value.iter().any(overflows) {
+                &[]
+            } else {
+                &case.derivative
+            }
+        };
+        Ok(Measured {
+            value: judged(values, 0, |c| &c.value),
+            derivative: slopes
+                .as_ref()
+                .map(|slopes| judged(slopes, self.formula.ty.columns(), slopes_of)),
+        })
+    }
 }
 
 fn judge(
@@ -160,14 +211,28 @@ fn judge(
     from: usize,
     of: fn(&Case) -> &[Expected],
     metric: Metric,
+    swept: Option<Bound>,
 ) -> Errors {
     let mut errors = Errors::default();
+    let of_sweep = match swept {
+        Some(bound) => metric.max(bound.metric),
+        None => metric,
+    };
     for (case, result) in subject.cases.iter().zip(results) {
         let got = &result[from..];
         if of(case).iter().all(|e| *e == Expected::Unstated) {
             continue;
         }
+        let metric = if case.notes == sweep::NOTE {
+            of_sweep
+        } else {
+            metric
+        };
         let mut error = case_error(format, got, of(case), metric);
+        if case.notes == sweep::NOTE && format == Format::Pair {
+            // the reference may be off itself, by ulps of 2⁻⁵² of which sixteen are a unit of pairs
+            error = (error - swept.map_or(0.0, |bound| bound.units / 16.0)).max(0.0);
+        }
         if case.notes == sweep::NOTE
             && subject.domain == Domain::Complex
             && of(case).iter().any(overflows)

@@ -6,8 +6,8 @@ use std::time::Instant;
 use pullback_compiler::EvalModule;
 use pullback_compiler::lower::Format;
 
-use crate::uniforms::{self, BatchUniform, MAX_PARAMS, WideUniform};
-use crate::{Error, Gpu, buffers, render};
+use crate::uniforms::{self, BatchUniform, MAX_PARAMS, WideWords};
+use crate::{Error, Gpu, buffers, shader};
 
 /// Size of a workgroup of `compute_main`.
 const WORKGROUP: u32 = 64;
@@ -103,7 +103,7 @@ impl<'g> Timed<'g> {
         rows: &[u8],
         count: u32,
     ) -> Result<Self, Error> {
-        let shader = render::load(gpu, &module.module)?;
+        let shader = shader::load(gpu, &module.module, &module.info, module.tier)?;
         let device = gpu.device();
         let buffer = |label, size: usize, usage| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -115,7 +115,7 @@ impl<'g> Timed<'g> {
         };
         let params = buffers::uniform(gpu, "params", size_of::<[f32; MAX_PARAMS]>())?;
         let batch = buffers::uniform(gpu, "batch", size_of::<BatchUniform>())?;
-        let wide = buffers::uniform(gpu, "wide", size_of::<WideUniform>())?;
+        let wide = buffers::wide(gpu)?;
         let (pipeline, bindings) = gpu.guarded("compiling the timed pipeline", || {
             let layout = layout(device);
             let around = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -149,7 +149,7 @@ impl<'g> Timed<'g> {
             };
             gpu.queue()
                 .write_buffer(&batch, 0, bytemuck::bytes_of(&head));
-            let all = [&inputs, &params, &results, &batch, &wide];
+            let all = [&inputs, &params, &results, &wide, &batch];
             let entries: Vec<_> = (0..)
                 .zip(all)
                 .map(|(binding, buffer)| wgpu::BindGroupEntry {
@@ -169,7 +169,7 @@ impl<'g> Timed<'g> {
             clock,
             pipeline,
             bindings,
-            format: module.format,
+            format: module.tier.precision.format(),
             params,
             wide,
             groups: count.div_ceil(WORKGROUP),
@@ -180,7 +180,7 @@ impl<'g> Timed<'g> {
     pub(super) fn seconds(&self, params: &[f64]) -> Result<f64, Error> {
         let gpu = self.gpu;
         let encoder = gpu.guarded("recording", || {
-            let wide = WideUniform::new(self.format, [0.0; 2], 0.0, 0.0, params);
+            let wide = WideWords::new(self.format, [0.0; 2], 0.0, 0.0, params);
             let params = uniforms::params(params);
             let queue = gpu.queue();
             queue.write_buffer(&self.params, 0, bytemuck::bytes_of(&params));
@@ -225,7 +225,7 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         Storage { read_only: true },
         Uniform,
         Storage { read_only: false },
-        Uniform,
+        Storage { read_only: true },
         Uniform,
     ];
     let entries: Vec<_> = (0..)

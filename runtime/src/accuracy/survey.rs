@@ -1,5 +1,7 @@
 //! Every function on every tier: what was measured, and which bounds do not hold.
 
+use std::sync::Mutex;
+
 use pullback_compiler::lower::Precision;
 
 use super::bounds::{Declared, declared, violations};
@@ -9,7 +11,7 @@ use super::evaluators::Machine;
 use super::measure::{Measured, measure};
 use super::subjects::Subject;
 use super::sweep::judged_by;
-use crate::{Error, Gpu};
+use crate::{Error, Gpu, pool};
 
 /// Random points of each kind, beside the tables.
 const EACH: usize = 20_000;
@@ -74,68 +76,73 @@ pub fn tier_name(tier: Option<Precision>) -> &'static str {
     tier.map_or("reference", Precision::name)
 }
 
-/// Runs a plan; without a device only the reference can be judged. `progress` is told what part of all is done.
+/// Runs a plan, each device on a thread of its own; without a device only the reference can be judged. `progress` is
+/// told what part of all is done.
 ///
 /// # Errors
 /// The device's, where it cannot time anything.
 pub fn survey(
-    gpu: Option<&Gpu>,
+    gpus: &[Gpu],
     plan: &Plan,
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Survey, Error> {
     let each = if plan.quick { EACH_QUICK } else { EACH };
-    let meter = gpu.map(|gpu| Meter::new(gpu, plan.quick)).transpose()?;
-    let machines: Vec<Machine> = plan
+    let tiers: Vec<Option<Precision>> = plan
         .tiers
         .iter()
-        .filter_map(|tier| match (tier, gpu) {
-            (None, _) => Some(Machine::Reference),
-            (Some(tier), Some(gpu)) => Some(Machine::Gpu(Box::new(gpu.clone()), *tier)),
-            (Some(_), None) => None,
-        })
+        .copied()
+        .filter(|tier| tier.is_none() || !gpus.is_empty())
         .collect();
-    let tiers: Vec<Precision> = machines.iter().filter_map(Machine::precision).collect();
+    let tasks = tasks(plan.subjects.len(), &tiers);
+    let timed = if gpus.is_empty() {
+        0
+    } else {
+        plan.subjects.len()
+    };
+    let total = tasks.len() + timed;
+    let mut done = 0;
+    let mut step = || {
+        done += 1;
+        progress(done, total);
+    };
     let mut out = Survey {
-        adapter: gpu.map(|gpu| gpu.adapter().to_string()).unwrap_or_default(),
-        device_clock: meter.as_ref().is_some_and(Meter::has_clock),
+        adapter: gpus
+            .first()
+            .map(|gpu| gpu.adapter().to_string())
+            .unwrap_or_default(),
+        device_clock: false,
         quick: plan.quick,
         random_points: 3 * each,
         rows: Vec::new(),
         exceptions: Vec::new(),
     };
-    let steps = machines.len() + 1;
-    let total = plan.subjects.len() * steps;
+    let judge_one = |gpu: &mut Option<&Gpu>, &(subject, tier): &(usize, usize)| {
+        let machine = match (tiers[tier], gpu) {
+            (Some(tier), Some(gpu)) => Machine::Gpu(Box::new(gpu.clone()), tier),
+            _ => Machine::Reference,
+        };
+        judge(&plan.subjects[subject], &machine, each)
+    };
+    let judges = if gpus.is_empty() {
+        vec![None]
+    } else {
+        gpus.iter().map(Some).collect()
+    };
+    let mut judged = pool::spread(judges, &tasks, judge_one, &mut step);
     for (k, subject) in plan.subjects.iter().enumerate() {
         let mut findings = Vec::new();
-        for (m, machine) in machines.iter().enumerate() {
-            progress(k * steps + m, total);
-            match judge(subject, machine, each) {
+        for (m, tier) in tiers.iter().enumerate() {
+            let place = tasks.iter().position(|&task| task == (k, m));
+            let found = place.and_then(|place| judged[place].take());
+            match found.unwrap_or_else(|| Err("the measurement crashed".into())) {
                 Ok(finding) => {
                     out.exceptions.extend(exceptions(subject, &finding));
                     findings.push(finding);
                 }
                 Err(reason) => {
-                    let tier = tier_name(machine.precision());
+                    let tier = tier_name(*tier);
                     let name = subject.name();
                     out.exceptions.push(format!("{name}, {tier}: {reason}"));
-                }
-            }
-        }
-        progress(k * steps + machines.len(), total);
-        if let Some(meter) = &meter {
-            match meter.costs(subject, &tiers) {
-                Ok(costs) => {
-                    for (tier, cost) in tiers.iter().zip(costs) {
-                        let mut of_tier = findings.iter_mut().filter(|f| f.tier == Some(*tier));
-                        if let Some(finding) = of_tier.next() {
-                            finding.cost = Some(cost);
-                        }
-                    }
-                }
-                Err(reason) => {
-                    let name = subject.name();
-                    out.exceptions
-                        .push(format!("{name} could not be timed: {reason}"));
                 }
             }
         }
@@ -147,8 +154,61 @@ pub fn survey(
             findings,
         });
     }
-    progress(total, total);
+    if !gpus.is_empty() {
+        let tiers: Vec<Precision> = tiers.into_iter().flatten().collect();
+        price(gpus, plan, &tiers, &mut out, &mut step)?;
+    }
     Ok(out)
+}
+
+/// Subjects with places of tiers, those first that take the longest: the finest tiers.
+fn tasks(subjects: usize, tiers: &[Option<Precision>]) -> Vec<(usize, usize)> {
+    let finest_first = (0..tiers.len()).rev();
+    finest_first
+        .flat_map(|tier| (0..subjects).map(move |subject| (subject, tier)))
+        .collect()
+}
+
+/// Adds what evaluations cost. Pipelines are made on all threads, but timed one after another.
+fn price(
+    gpus: &[Gpu],
+    plan: &Plan,
+    tiers: &[Precision],
+    out: &mut Survey,
+    step: &mut dyn FnMut(),
+) -> Result<(), Error> {
+    let alone = Mutex::new(());
+    // Where shaders run on the processor, compiling others at the same time would cost them time.
+    let threads = if gpus[0].adapter().is_software() {
+        1
+    } else {
+        gpus.len()
+    };
+    let meters = gpus[..threads]
+        .iter()
+        .map(|gpu| Meter::new(gpu, plan.quick))
+        .collect::<Result<Vec<_>, _>>()?;
+    out.device_clock = meters[0].has_clock();
+    let cost = |meter: &mut Meter, subject: &Subject| meter.costs(subject, tiers, &alone);
+    let costs = pool::spread(meters, &plan.subjects, cost, step);
+    for (row, costs) in out.rows.iter_mut().zip(costs) {
+        match costs.unwrap_or_else(|| Err("the timing crashed".into())) {
+            Ok(costs) => {
+                for (tier, cost) in tiers.iter().zip(costs) {
+                    let mut of_tier = row.findings.iter_mut().filter(|f| f.tier == Some(*tier));
+                    if let Some(finding) = of_tier.next() {
+                        finding.cost = Some(cost);
+                    }
+                }
+            }
+            Err(reason) => {
+                let name = row.subject.name();
+                out.exceptions
+                    .push(format!("{name} could not be timed: {reason}"));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn judge(subject: &Subject, machine: &Machine, each: usize) -> Result<Finding, String> {

@@ -16,7 +16,7 @@ use pullback_compiler::{EvalModule, Evaluator, Program, SettingValue, What};
 use pullback_grammar::Diagnostic;
 
 use crate::evaluate::Surroundings;
-use crate::{Error, Frame, Gpu, GpuEvaluator};
+use crate::{Capabilities, Error, Frame, Gpu, GpuEvaluator};
 
 pub use points::Sample;
 pub use sight::{COLOUR, DISPLACEMENT, Sight};
@@ -242,9 +242,10 @@ pub fn compare(
         return Ok(Outcome::Unresolved);
     }
     let what = what(scenery);
-    let module = scenery
-        .program
-        .eval_module(scenery.picture, what, precision)?;
+    let module =
+        scenery
+            .program
+            .eval_module(scenery.picture, what, Capabilities::tier(gpu, precision)?)?;
     let values = evaluate(gpu, scenery, &module, samples)?;
     let columns = module.outputs.len().max(1);
     let eye = sight::Eye::new(scenery);
@@ -308,9 +309,11 @@ fn time_good_ones(
         return Ok(());
     }
     for trial in trials.iter_mut().filter(|t| t.is_good()) {
-        let module = scenery
-            .program
-            .eval_module(scenery.picture, what, trial.precision)?;
+        let module = scenery.program.eval_module(
+            scenery.picture,
+            what,
+            Capabilities::tier(gpu, trial.precision)?,
+        )?;
         let mut evaluator = GpuEvaluator::new(gpu, &module)?;
         let inputs = module.inputs.len();
         let many = samples.iter().cycle().take(TIMED);

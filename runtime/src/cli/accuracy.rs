@@ -45,6 +45,9 @@ pub(super) struct AccuracyArguments {
     /// Fewer points and shorter timings
     #[arg(long)]
     quick: bool,
+    /// How many functions are compiled at once [default: the processor's cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
+    threads: Option<u16>,
 }
 
 /// What can be judged.
@@ -90,18 +93,18 @@ pub(super) fn run(arguments: &AccuracyArguments, console: &Console) -> Result<()
     let subjects = chosen(all, &arguments.functions)?;
     let asked = &arguments.precision;
     let on_cpu = !asked.is_empty() && asked.iter().all(|judged| *judged == Judged::Reference);
-    let gpu = if on_cpu {
-        None
+    let gpus = if on_cpu {
+        Vec::new()
     } else {
-        Some(open(&arguments.device, console)?)
+        devices(arguments, console)?
     };
     let plan = Plan {
         subjects,
-        tiers: tiers(asked, gpu.as_ref(), console)?,
+        tiers: tiers(asked, gpus.first(), console)?,
         quick: arguments.quick,
     };
     let mut progress = Progress::new(console);
-    let found = survey(gpu.as_ref(), &plan, &mut |done, total| {
+    let found = survey(&gpus, &plan, &mut |done, total| {
         progress.update(done as u64, total as u64);
     })?;
     progress.finish();
@@ -116,6 +119,17 @@ pub(super) fn run(arguments: &AccuracyArguments, console: &Console) -> Result<()
     }
 }
 
+/// The adapter opened once for each thread: devices have compilers of their own.
+fn devices(arguments: &AccuracyArguments, console: &Console) -> Result<Vec<Gpu>, Failure> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = arguments.threads.map_or(cores.min(16), usize::from);
+    let mut gpus = vec![open(&arguments.device, console)?];
+    while gpus.len() < threads {
+        gpus.push(Gpu::open(&arguments.device.adapter)?);
+    }
+    Ok(gpus)
+}
+
 /// The tiers that are asked for, each once.
 fn tiers(
     asked: &[Judged],
@@ -125,7 +139,7 @@ fn tiers(
     let mut tiers: Vec<Option<Precision>> = Vec::new();
     for judged in asked {
         if let (Some(tier), Some(gpu)) = (judged.tier(), gpu) {
-            super::demand(gpu, tier)?;
+            super::tier(gpu, tier)?;
         }
         if !tiers.contains(&judged.tier()) {
             tiers.push(judged.tier());

@@ -105,13 +105,13 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
         Place::Gpu => {
             let settings = &source.program.pictures()[index].settings;
             let precision = arguments.numbers.without_view(settings)?;
-            let module = source.program.eval_module(index, what, precision);
+            let gpu = super::open(&arguments.device, console)?;
+            let tier = super::tier(&gpu, precision)?;
+            let module = source.program.eval_module(index, what, tier);
             let module = source.expect(module, console)?;
             let mut table = Table::open(arguments, &module.inputs)?;
-            let gpu = super::open(&arguments.device, console)?;
-            super::demand(&gpu, precision)?;
             let evaluator = GpuEvaluator::new(&gpu, &module)?;
-            if module.format.is_wide() {
+            if module.tier.precision.format().is_wide() {
                 let mut machine = WideOnDevice {
                     evaluator,
                     surroundings,

@@ -99,8 +99,8 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
             chosen(&gpu, &scenery, &source, console)?
         }
     };
-    super::demand(&gpu, precision)?;
-    let scene = source.expect(source.program.scene_module(index, precision), console)?;
+    let tier = super::tier(&gpu, precision)?;
+    let scene = source.expect(source.program.scene_module(index, tier), console)?;
     let bytes = scene.pack_settings(&settings);
     frame.settings = &bytes;
     if let Some(warning) = unresolved(picture, &frame, precision) {

@@ -30,7 +30,7 @@ impl ComputeStage {
         let stages = wgpu::ShaderStages::COMPUTE;
         let [view, params, settings, wide] = uniform_layout(stages);
         let image = wgpu::BindGroupLayoutEntry {
-            binding: 3,
+            binding: 4,
             visibility: stages,
             ty: wgpu::BindingType::Buffer {
                 ty: wgpu::BufferBindingType::Storage { read_only: false },
@@ -43,7 +43,7 @@ impl ComputeStage {
         gpu.guarded("compiling the compute pipeline", || {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some("compute"),
-                entries: &[view, params, settings, image, wide],
+                entries: &[view, params, settings, wide, image],
             });
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some("compute"),
@@ -107,7 +107,7 @@ impl Stage for ComputeStage {
                         params,
                         settings,
                         wgpu::BindGroupEntry {
-                            binding: 3,
+                            binding: 4,
                             resource: image.as_entire_binding(),
                         },
                         wide,

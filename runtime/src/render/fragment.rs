@@ -30,7 +30,7 @@ impl FragmentStage {
         gpu.guarded("compiling the render pipeline", || {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some("fragment"),
-                entries: &uniform_layout(wgpu::ShaderStages::VERTEX_FRAGMENT),
+                entries: &uniform_layout(wgpu::ShaderStages::FRAGMENT),
             });
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some("fragment"),

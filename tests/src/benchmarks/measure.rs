@@ -7,7 +7,7 @@ use pullback_compiler::formula::Formula;
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{EvalModule, Evaluator, What, compile_function};
 use pullback_runtime::evaluate::Surroundings;
-use pullback_runtime::{Gpu, GpuEvaluator};
+use pullback_runtime::{Capabilities, Gpu, GpuEvaluator};
 
 use super::bits::Exact;
 use super::data::{Benchmark, Sample};
@@ -189,7 +189,8 @@ fn lost(
     if !gpu.has(precision) {
         return Ok(None);
     }
-    let module = EvalModule::new(formula, What::Value, precision).map_err(|e| format!("{e:?}"))?;
+    let tier = Capabilities::tier(gpu, precision).map_err(|e| e.to_string())?;
+    let module = EvalModule::new(formula, What::Value, tier).map_err(|e| format!("{e:?}"))?;
     let key = key(&gpu.adapter().to_string(), &module, points);
     if let Some(known) = store.get(key) {
         return Ok(Some(known));
@@ -218,7 +219,8 @@ pub fn results(
     if !gpu.has(precision) {
         return Ok(None);
     }
-    let module = EvalModule::new(formula, What::Value, precision).map_err(|e| format!("{e:?}"))?;
+    let tier = Capabilities::tier(gpu, precision).map_err(|e| e.to_string())?;
+    let module = EvalModule::new(formula, What::Value, tier).map_err(|e| format!("{e:?}"))?;
     computed(gpu, &module, points).map(Some)
 }
 

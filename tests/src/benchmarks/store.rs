@@ -89,7 +89,7 @@ pub fn key(adapter: &str, module: &EvalModule, points: &[Sample]) -> u64 {
     let mut digest = DefaultHasher::new();
     adapter.hash(&mut digest);
     format!("{:?}", module.module).hash(&mut digest);
-    module.format.hash(&mut digest);
+    module.tier.hash(&mut digest);
     for point in points {
         for x in &point.args {
             x.to_bits().hash(&mut digest);

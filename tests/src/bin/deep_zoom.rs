@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use pullback_compiler::lower::Precision;
 use pullback_runtime::{
-    AdapterChoice, Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, image_file,
+    AdapterChoice, Capabilities, Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, image_file,
 };
 use pullback_tests::deep_zoom::{FIELDS, Field, Zoom, program, table, zooms};
 
@@ -83,7 +83,8 @@ fn draw(gpu: &Gpu, path: &str) {
 
 fn picture(gpu: &Gpu, field: &Field, zoom: &Zoom, precision: Precision) -> Vec<u8> {
     let program = program(field);
-    let scene = program.scene_module(0, precision).expect("a scene");
+    let tier = Capabilities::tier(gpu, precision).expect("a tier");
+    let scene = program.scene_module(0, tier).expect("a scene");
     let settings = scene.pack_settings(&program.pictures()[0].settings);
     let frame = Frame {
         view: View {

@@ -1,11 +1,16 @@
 //! Identities that hold whatever the reference says: symmetries bit for bit, inverse functions, limits. Tolerances are
 //! made of declared bounds. Random points are the same in every run.
 
+mod inverses;
+mod limits;
+mod periodicity;
+mod slopes;
+
 use proptest::prelude::*;
 use proptest::strategy::ValueTree as _;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use pullback_compiler::What;
-use pullback_compiler::lower::{Format, Precision};
+use pullback_compiler::lower::Precision;
 use pullback_tests::accuracy::bounds::declared;
 use pullback_tests::accuracy::error::Judge;
 use pullback_tests::accuracy::evaluators::{Machine, Point, suite_gpu};
@@ -56,29 +61,36 @@ fn run(machine: &Machine, source: &str, what: What, args: &[Vec<f64>]) -> Vec<Ve
     machine.run(&formula(source), what, &points).expect(source)
 }
 
+/// The same at two sets of points, by one shader: compiling it is what takes time.
+fn run_twice(
+    machine: &Machine,
+    source: &str,
+    what: What,
+    first: &[Vec<f64>],
+    second: &[Vec<f64>],
+) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+    let mut here = run(machine, source, what, &[first, second].concat());
+    let there = here.split_off(first.len());
+    (here, there)
+}
+
+/// The declared bounds of a function's value and derivative, in units in the last place; 0 where none is needed.
+fn units(word: &str, domain: Domain, machine: &Machine) -> (f64, f64) {
+    let all = subjects();
+    let mut found = all.iter().filter(|s| s.word == word);
+    let subject = found.find(|s| s.domain == domain).expect(word);
+    let bounds = declared(subject, machine).expect(word);
+    let derivative = bounds.derivative.map_or(0.0, |b| b.units);
+    (bounds.value.expect(word).units, derivative)
+}
+
 /// The declared bound of a real function, in units in the last place.
 fn bound(word: &str, machine: &Machine) -> f64 {
-    let all = subjects();
-    let subject = all
-        .iter()
-        .find(|s| s.word == word && s.domain == Domain::Real)
-        .expect(word);
-    declared(subject, machine)
-        .expect(word)
-        .value
-        .expect(word)
-        .units
+    units(word, Domain::Real, machine).0
 }
 
 fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
-}
-
-/// Whether two numbers are the same; complex numbers of pairs within the bound that is declared for all their functions,
-/// because a product of pairs is not the same in both orders of its factors.
-fn alike(a: f64, b: f64, machine: &Machine, complex: bool) -> bool {
-    let last = complex && machine.format() == Format::Pair;
-    same(a, b) || last && (a - b).abs() <= 2f64.powi(-42) * a.abs()
 }
 
 /// Holds f(turn(z)) = turned f(z) bit for bit, signs of zeros too, for every function.
@@ -93,14 +105,13 @@ fn symmetric(functions: &[&str], domain: &str, turn: &[f64], turned: &[f64]) {
     for machine in &machines() {
         for name in functions {
             let source = format!("f({domain}) = {name}({})\n", &domain[..1]);
-            let here = run(machine, &source, What::Value, &points);
-            let there = run(machine, &source, What::Value, &images);
+            let (here, there) = run_twice(machine, &source, What::Value, &points, &images);
             for ((point, a), b) in points.iter().zip(&here).zip(&there) {
                 let equal = a
                     .iter()
                     .zip(turned)
                     .zip(b)
-                    .all(|((a, s), b)| alike(a * s, *b, machine, turn.len() == 2));
+                    .all(|((a, s), b)| same(a * s, *b));
                 if !equal {
                     wrong.push(format!(
                         "{}: {name} at {point:?}: {a:?}, {b:?}",
@@ -319,6 +330,136 @@ fn limits_at_infinity_are_reached() {
                 &[vec![at]],
             )[0][1];
             assert!(got == 0.0, "{}: {name}′({at}) = {got}", label(machine));
+        }
+    }
+}
+
+/// The slopes of x/|p| are (h/|p|)²/|p| and -(x/|p|)(y/|p|)/|p|, h the length of the other coordinates: 1 - (x/|p|)² has
+/// no digits where x dominates.
+#[test]
+fn directions_have_slopes_that_do_not_cancel() {
+    let plane = "f(x, y) = normalize(vec2(x, y)).x";
+    let space = "f(x, y, z) = normalize(vec3(x, y, z)).y";
+    let four = "f(x, y, z) = normalize(vec4(x, y, z, 2)).z";
+    let points = [
+        [1.0, 1e-4, -1e-6],
+        [1e-3, 1e4, 2e-5],
+        [-3e15, 2e-3, 7.0],
+        [0.25, -3.0, 1e6],
+        [1e-15, 2e-15, -3e-15],
+    ];
+    for machine in &machines() {
+        for (source, count, of, last) in [(plane, 2, 0, 0.0), (space, 3, 1, 0.0), (four, 3, 2, 2.0)]
+        {
+            let args: Vec<Vec<f64>> = points
+                .iter()
+                .map(|p| {
+                    p[..count]
+                        .iter()
+                        .map(|&x: &f64| f64::from(x as f32))
+                        .collect()
+                })
+                .collect();
+            let rows = run(machine, source, What::Gradient, &args);
+            for (point, row) in args.iter().zip(&rows) {
+                let rest = |skip: usize| {
+                    let others = point.iter().enumerate().filter(|(k, _)| *k != skip);
+                    others.map(|(_, x)| x * x).sum::<f64>() + last * last
+                };
+                let r = rest(usize::MAX).sqrt();
+                let mut exact = vec![point[of] / r];
+                exact.extend((0..count).map(|k| {
+                    if k == of {
+                        rest(of) / r / r / r
+                    } else {
+                        -(point[of] / r) * (point[k] / r) / r
+                    }
+                }));
+                for (got, exact) in row.iter().zip(&exact) {
+                    let unit = machine.format().unit(*exact);
+                    // a quotient, two products, and roundings of the two lengths in them
+                    assert!(
+                        (got - exact).abs() <= 12.0 * unit || exact.abs() < 2f64.powi(-80),
+                        "{}: {source} at {point:?}: {row:?}, not {exact:e}",
+                        label(machine)
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn directions_are_known_where_lengths_overflow() {
+    let args = vec![vec![f64::from(3e38_f32), f64::from(-2e38_f32)]];
+    let Some(gpu) = suite_gpu() else { return };
+    let machine = Machine::Gpu(Box::new(gpu), Precision::Accurate);
+    let exact = args[0][0] / args[0][0].hypot(args[0][1]);
+    for source in [
+        "f(x, y) = normalize(vec2(x, y)).x",
+        "f(x, y) = diff(hypot(x, y), x)",
+    ] {
+        let got = run(&machine, source, What::Value, &args)[0][0];
+        assert!((got - exact).abs() < 2e-7, "{source}: {got}, not {exact}");
+    }
+    // and there is none at the origin
+    let origin = run(
+        &machine,
+        "f(x, y) = normalize(vec2(x, y)).x",
+        What::Value,
+        &[vec![0.0, 0.0]],
+    );
+    assert!(origin[0][0].is_nan());
+}
+
+/// A power whose base or exponent is a constant, or both the same: what a shader compiler knows of them must not undo the
+/// sums of two floats. All constants are float32 numbers.
+#[test]
+fn powers_with_constants_keep_their_digits() {
+    let Some(gpu) = suite_gpu() else { return };
+    let accurate = Machine::Gpu(Box::new(gpu), Precision::Accurate);
+    let args: Vec<Vec<f64>> = numbers(400, 6.0)
+        .into_iter()
+        .filter(|x| *x != 0.0)
+        .map(|x| vec![x.abs()])
+        .collect();
+    let bound = bound("pow", &accurate);
+    // with the bound of each: the power, and what is done to it
+    for (source, more) in [
+        ("x^2.75", 0.0),
+        ("2.5*x^1.5", 1.0),
+        ("diff(x^1.5, x)", 1.0),
+        ("diff(x^-0.625, x)", 1.0),
+        ("1.125^x", 0.0),
+        ("diff(1.125^x, x)", 2.0),
+        ("x^x", 0.0),
+        ("x^-x", 0.0),
+        ("re(complex(x, 0.5)^2.75)", 2.0),
+        ("re(complex(1.5, 0.5)^x)", 2.0),
+    ] {
+        let source = format!("f(x: real) = {source}");
+        let exact = run(&Machine::Reference, &source, What::Value, &args);
+        let got = run(&accurate, &source, What::Value, &args);
+        for ((x, e), g) in args.iter().zip(&exact).zip(&got) {
+            let (e, g) = (e[0], g[0]);
+            if e.abs() > 3e38 || e.abs() < 2e-38 {
+                continue;
+            }
+            // the real part of a complex power is good to its modulus
+            let size = if source.contains("complex") {
+                let modulus = if source.contains("0.5)^2") {
+                    x[0].hypot(0.5).powf(2.75)
+                } else {
+                    1.5_f64.hypot(0.5).powf(x[0])
+                };
+                e.abs().max(modulus)
+            } else {
+                e.abs()
+            };
+            assert!(
+                (g - e).abs() <= (bound + more) * accurate.format().unit(size),
+                "{source} at {x:?}: {g:e}, not {e:e}"
+            );
         }
     }
 }

@@ -1,8 +1,6 @@
-//! Statements in another notation: they are written anew.
+//! Where statements in another notation are.
 
 use crate::Span;
-use crate::ast::{Exprs, Item};
-use crate::printer::print_item;
 
 /// What a statement consists of, where some of it is another notation.
 pub(super) struct Foreign<'a> {
@@ -37,16 +35,5 @@ impl<'a> Foreign<'a> {
         let closes = matches!(place.text(self.text), "}" | ")" | "]");
         let between = self.text.get(from as usize..place.start as usize);
         !closes && between.is_some_and(|gap| gap.contains(['\n', '\r', ';']))
-    }
-}
-
-/// The lines of a statement that is written anew. `is_function` says which names are functions, those of the file
-/// among them.
-pub(super) fn lines(exprs: &Exprs, item: &Item, is_function: &dyn Fn(&str) -> bool) -> String {
-    let printed = print_item(exprs, item);
-    let letters = |text: &str| -> String { text.split_whitespace().collect() };
-    match super::unconverted(&printed, is_function) {
-        Some(broken) if letters(&broken) == letters(&printed) => broken.trim_end().to_owned(),
-        _ => printed,
     }
 }
