@@ -1,13 +1,14 @@
 //! Time from text to validated module, with templates already parsed: per stage for the gallery, and its growth
-//! with the size of the formula.
+//! with the size of the formula; with and without stability rewrites.
 //!
-//! `cargo bench -p pullback-compiler --bench compile_time`
+//! `cargo bench --workspace --bench compile_time -- [gallery] [growth] [diagnostics] [rewrites]`
 
 use std::fmt::Write as _;
 use std::time::Instant;
 
 use pullback_compiler::check::is_builtin_function;
 use pullback_compiler::lower::Precision;
+use pullback_compiler::stable::Rewrites;
 use pullback_compiler::{Program, SceneModule, compile};
 
 const STAGES: [&str; 4] = [
@@ -31,9 +32,81 @@ fn main() {
         }
     }
     gallery.sort();
-    gallery_table(&gallery);
-    growth_table();
-    diagnostics_table();
+    let asked: Vec<String> = std::env::args().skip(1).collect();
+    let tables = ["gallery", "growth", "diagnostics", "rewrites"];
+    let some = asked.iter().any(|word| tables.contains(&word.as_str()));
+    let is_asked = |table: &str| !some || asked.iter().any(|word| word == table);
+    if is_asked("gallery") {
+        gallery_table(&gallery);
+    }
+    if is_asked("growth") {
+        growth_table();
+    }
+    if is_asked("diagnostics") {
+        diagnostics_table();
+    }
+    if is_asked("rewrites") {
+        rewrites_table(&gallery);
+    }
+}
+
+/// Formulas on which rules act, and a long one, beside the gallery.
+const REWRITTEN: [&str; 5] = [
+    "f(x, y) = sqrt(x + 1) - sqrt(x) + y",
+    "f(x, y) = (-y + sqrt(y^2 - 4 x))/(2 x)",
+    "f(z) = (1 - cos(z))/z^2",
+    "f(x, y) = log(exp(x) + exp(y))",
+    "f(x, y) = log((1 - x)/(1 + x)) - (exp(y) - exp(-y))/2",
+];
+
+/// What rewrites add to the time from text to module: both take turns, and the ratio is the median of the turns.
+fn rewrites_table(gallery: &[(String, String)]) {
+    println!("\nText to validated module with rewrites and without, median of 31 turns\n");
+    println!("| formula | with, µs | without, µs | ratio |");
+    println!("| --- | ---: | ---: | ---: |");
+    let long: Vec<String> = (1..200)
+        .map(|k| format!("sin({k} x) sqrt(y + {k})"))
+        .collect();
+    let long = (
+        "199 terms".to_owned(),
+        format!("f(x, y) = {}", long.join(" - ")),
+    );
+    let own = REWRITTEN
+        .iter()
+        .map(|t| (format!("`{t}`"), (*t).to_owned()));
+    let mut ratios = Vec::new();
+    for (name, text) in gallery.iter().cloned().chain(own).chain([long]) {
+        let [with, without, ratio] = with_and_without(&text, 31);
+        println!("| {name} | {with:.0} | {without:.0} | {ratio:.2} |");
+        if ratios.len() < gallery.len() {
+            ratios.push(ratio);
+        }
+    }
+    let most = ratios.iter().copied().fold(0.0, f64::max);
+    let median = median(ratios);
+    println!("\nRatio over the gallery: median {median:.2}, greatest {most:.2}");
+}
+
+/// Microseconds with rewrites, without, and the ratio.
+fn with_and_without(text: &str, turns: usize) -> [f64; 3] {
+    let time = |rewrites: Rewrites| {
+        let start = Instant::now();
+        let program = compile(text).program.expect("a program without errors");
+        let program = program.with_rewrites(rewrites);
+        let module = SceneModule::new(&program.pictures()[0], Precision::Accurate);
+        std::hint::black_box(module).expect("a module");
+        start.elapsed().as_secs_f64() * 1e6
+    };
+    let mut all: Vec<[f64; 2]> = (0..=turns)
+        .map(|_| [time(Rewrites::ON), time(Rewrites::OFF)])
+        .collect();
+    // the first turn parses templates
+    all.remove(0);
+    [
+        median(all.iter().map(|t| t[0]).collect()),
+        median(all.iter().map(|t| t[1]).collect()),
+        median(all.iter().map(|t| t[0] / t[1]).collect()),
+    ]
 }
 
 /// Texts of 1 MiB: how long until the last diagnostic of the whole compiler.

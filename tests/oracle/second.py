@@ -30,7 +30,7 @@ REAL.update({"pow7": (lambda x: x**7, lambda x: True)})
 COMPLEX = {name: base.COMPLEX[name] for name in "exp log sqrt sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh".split()}
 COMPLEX.update(MORE)
 COMPLEX.update({"square": lambda z: z * z, "pow7": lambda z: z**7, "inverse": lambda z: 1 / z})
-COMPLEX.update({name: base.COMPLEX[name] for name in ("expm1", "log1p")})
+COMPLEX.update({name: base.COMPLEX[name] for name in ("expm1", "log1p", "sinc", "sinhc", "exprel")})
 psi = mp.polygamma
 # by relations, because differences of mpmath's gamma functions take long
 GAMMA = {

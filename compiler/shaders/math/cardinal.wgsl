@@ -38,11 +38,25 @@ fn complex_sinhc(z: vec2f) -> vec2f {
     if is_infinite(z.x) {
         return complex_sinh(vec2f(magnitude(z.x), flip_sign(z.y, sign_bit(z.x))));
     }
+    if max(magnitude(z.x), magnitude(z.y)) < 1e-3 {
+        return vec2f(1.0 + (z.x - z.y) * (z.x + z.y) / 6.0, z.x * z.y / 3.0);
+    }
     if magnitude(z.x) > 80.0 {
         let half = 0.5 * z;
-        return complex_mul(complex_div(complex_sinh(half), half), complex_cosh(half));
+        let sinh = complex_sinh(half);
+        if complex_is_infinite(sinh) {
+            return overflowed_quotient(vec2f(magnitude(z.x), flip_sign(z.y, sign_bit(z.x))));
+        }
+        return complex_mul(complex_div(sinh, half), complex_cosh(half));
     }
     return complex_div(complex_sinh(z), z);
+}
+
+/// e^z/z where that overflows: an infinity in each part.
+fn overflowed_quotient(z: vec2f) -> vec2f {
+    let wave = real_sincos(z.y);
+    let w = z * (1.0 / max(magnitude(z.x), magnitude(z.y)));
+    return make_infinity(1.0) * vec2f(wave.y * w.x + wave.x * w.y, wave.x * w.x - wave.y * w.y);
 }
 
 /// The sign bit of -sinc' y.
@@ -66,8 +80,14 @@ fn complex_exprel(z: vec2f) -> vec2f {
     if is_infinite(z.x) && z.x > 0.0 {
         return complex_exp(z);
     }
+    if max(magnitude(z.x), magnitude(z.y)) < 1e-9 {
+        return vec2f(1.0, 0.5 * z.y);
+    }
     if z.x > 80.0 {
         let half = complex_exp(0.5 * z);
+        if complex_is_infinite(half) {
+            return overflowed_quotient(z);
+        }
         return complex_mul(half, complex_div(half, z));
     }
     return complex_div(complex_expm1(z), z);

@@ -45,11 +45,32 @@ fn complex_sinhc(z: Complex) -> Complex {
     if is_infinite(z.re) {
         return complex_sinh(Complex(real_abs(z.re), flip_if(z.im, sign_is_set(z.re))));
     }
+    if is_below(real_abs(z.re), 1e-7) && is_below(real_abs(z.im), 1e-7) {
+        let square = real_mul(real_sub(z.re, z.im), real_add(z.re, z.im));
+        return Complex(
+            add32(real_div(square, num(6.0)), 1.0),
+            real_div(real_mul(z.re, z.im), num(3.0)),
+        );
+    }
     if is_above(real_abs(z.re), 80.0) {
         let half = complex_scale(z, -1);
-        return complex_mul(complex_div(complex_sinh(half), half), complex_cosh(half));
+        let sinh = complex_sinh(half);
+        if complex_is_infinite(sinh) {
+            return overflowed_quotient(Complex(real_abs(z.re), flip_if(z.im, sign_is_set(z.re))));
+        }
+        return complex_mul(complex_div(sinh, half), complex_cosh(half));
     }
     return complex_div(complex_sinh(z), z);
+}
+
+/// e^z/z where that overflows: an infinity in each part.
+fn overflowed_quotient(z: Complex) -> Complex {
+    let wave = real_sincos(z.im);
+    let size = real_max(real_abs(z.re), real_abs(z.im));
+    let w = Complex(real_div(z.re, size), real_div(z.im, size));
+    let re = real_add(real_mul(wave.second, w.re), real_mul(wave.first, w.im));
+    let im = real_sub(real_mul(wave.first, w.re), real_mul(wave.second, w.im));
+    return Complex(make_infinity(re), make_infinity(im));
 }
 
 /// Whether -sinc' y is negative.
@@ -73,8 +94,14 @@ fn complex_exprel(z: Complex) -> Complex {
     if is_infinite(z.re) && !sign_is_set(z.re) {
         return complex_exp(z);
     }
+    if is_below(real_abs(z.re), 1e-17) && is_below(real_abs(z.im), 1e-17) {
+        return Complex(num(1.0), scale(z.im, -1));
+    }
     if is_above(z.re, 80.0) {
         let half = complex_exp(complex_scale(z, -1));
+        if complex_is_infinite(half) {
+            return overflowed_quotient(z);
+        }
         return complex_mul(half, complex_div(half, z));
     }
     return complex_div(complex_expm1(z), z);

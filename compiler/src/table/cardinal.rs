@@ -68,28 +68,51 @@ pub fn rows() -> Vec<Row> {
 fn sinc_partial(g: &mut Graph, args: &[Id], value: Id, _: usize) -> Id {
     let z = args[0];
     let near = odd_series(g, z, -1.0);
-    let cos = call(g, Prim::Cos, z);
-    let difference = g.sub(cos, value);
-    let far = g.div(difference, z);
+    let along = slope_along(g, z, value, Prim::Cos);
+    if g.ty(z) == Ty::Real {
+        return near_zero(g, z, near, along);
+    }
+    let across = slope_across(g, z, value, Prim::Tan);
+    let far = far_from_axis(g, z, Prim::Im, along, across);
     near_zero(g, z, near, far)
 }
 
-/// (cosh z - sinhc z)/z, near 0 Σ 2k z²ᵏ⁻¹/(2k+1)!. Of reals sinhc x (1/tanh x - 1/x), where cosh x may overflow.
+/// (cosh z - sinhc z)/z, near 0 Σ 2k z²ᵏ⁻¹/(2k+1)!.
 fn sinhc_partial(g: &mut Graph, args: &[Id], value: Id, _: usize) -> Id {
     let z = args[0];
     let near = odd_series(g, z, 1.0);
-    let far = if g.ty(z) == Ty::Real {
-        let one = g.real(1.0);
-        let tanh = call(g, Prim::Tanh, z);
-        let (left, right) = (g.div(one, tanh), g.div(one, z));
-        let rate = g.sub(left, right);
-        g.mul(value, rate)
-    } else {
-        let cosh = call(g, Prim::Cosh, z);
-        let difference = g.sub(cosh, value);
-        g.div(difference, z)
-    };
+    let across = slope_across(g, z, value, Prim::Tanh);
+    if g.ty(z) == Ty::Real {
+        return near_zero(g, z, near, across);
+    }
+    let along = slope_along(g, z, value, Prim::Cosh);
+    let far = far_from_axis(g, z, Prim::Re, along, across);
     near_zero(g, z, near, far)
+}
+
+/// (f(z) - value)/z with f the derivative of the wave.
+fn slope_along(g: &mut Graph, z: Id, value: Id, f: Prim) -> Id {
+    let f = call(g, f, z);
+    let difference = g.sub(f, value);
+    g.div(difference, z)
+}
+
+/// value (1/t(z) - 1/z) with t the tangent: it does not overflow before the value does.
+fn slope_across(g: &mut Graph, z: Id, value: Id, t: Prim) -> Id {
+    let one = g.real(1.0);
+    let tangent = call(g, t, z);
+    let (left, right) = (g.div(one, tangent), g.div(one, z));
+    let rate = g.sub(left, right);
+    g.mul(value, rate)
+}
+
+/// The first where the part of z that lets a wave grow is at most 1, else the second.
+fn far_from_axis(g: &mut Graph, z: Id, part: Prim, along: Id, across: Id) -> Id {
+    let part = call(g, part, z);
+    let size = call(g, Prim::Abs, part);
+    let one = g.real(1.0);
+    let grows = g.apply(Prim::Less, &[one, size]);
+    g.apply(Prim::Select, &[grows, across, along])
 }
 
 /// (exp z - exprel z)/z, near 0 Σ k zᵏ⁻¹/(k+1)!; right of 0 exprel z + (1 - exprel z)/z, where exp z may overflow.
