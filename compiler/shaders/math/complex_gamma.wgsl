@@ -6,6 +6,12 @@ fn is_gamma_far(z: vec2f) -> bool {
     return magnitude(z.y) >= 5.0 || z.x >= 5.0;
 }
 
+/// Whether a derivative of ψ is reflected: left of 0, as long as π²/sin² πz, which is about 40 e^(-2π|y|), is a number. Far
+/// left it is more than all the rest, however small.
+fn is_reflected(z: vec2f) -> bool {
+    return z.x < 0.0 && magnitude(z.y) < 14.0;
+}
+
 /// sin πz, its real part reduced exactly.
 fn complex_sin_pi(z: vec2f) -> vec2f {
     let wave = sincos_pi(z.x);
@@ -19,13 +25,13 @@ fn complex_sin_pi(z: vec2f) -> vec2f {
         h.exponent));
 }
 
-/// π cot πz = π (sin πx cos πx - i sinh πy cosh πy) / (sin² πx + sinh² πy) for |y| ≤ 8: no part cancels.
+/// π cot πz = π (sin πx cos πx - i sinh πy cosh πy) / (sin² πx + sinh² πy) for |y| ≤ 14: no part cancels.
 fn complex_pi_cot_pi(z: vec2f) -> vec2f {
     let wave = sincos_pi(z.x);
     let h = real_sinhcosh(3.1415927 * z.y);
     let norm = wave.x * wave.x + h.x * h.x;
     if norm < 1e-24 { // beside a pole, where the squares may underflow: 1/z
-        return complex_inverse(vec2f(z.x - floor(z.x + 0.5), z.y));
+        return complex_inverse(vec2f(z.x - round(z.x), z.y));
     }
     return vec2f(wave.x * wave.y, -h.x * h.y) * (3.1415927 / norm);
 }
@@ -70,6 +76,14 @@ fn complex_gamma(z: vec2f) -> vec2f {
     if magnitude(z.y) > 1e3 && z.x < 100.0 { // |Γ| falls as e^(-π|y|/2)
         return vec2f(0.0, 0.0);
     }
+    let size = max(magnitude(z.x), magnitude(z.y));
+    if size > 1e30 && !(z.x < 0.0 && magnitude(z.y) < 5.0) {
+        // log|Γ| = |z| (cos φ (log|z| - 1) - φ sin φ): nothing but a zero or an infinity, of a phase that none knows
+        let unit = z / size;
+        let growth = unit.x * (real_log(size) - 1.0) - unit.y * real_atan2(unit.y, unit.x);
+        let infinity = make_infinity(1.0);
+        return select(vec2f(0.0, 0.0), vec2f(infinity, flip_sign(infinity, sign_bit(z.y))), growth > 0.0);
+    }
     if z.x < 0.5 && !is_gamma_far(z) {
         // Γ(z) = -π / (z sin πz Γ(-z))
         let below = complex_mul(complex_mul(z, complex_sin_pi(z)), gamma_of_right(-z));
@@ -113,7 +127,7 @@ fn complex_trigamma(z: vec2f) -> vec2f {
     if !is_finite(z.x) || !is_finite(z.y) {
         return select(vec2f(0.0, 0.0), vec2f(make_nan(z.x), make_nan(z.y)), complex_has_nan(z));
     }
-    let left = z.x < 0.0 && !is_gamma_far(z);
+    let left = is_reflected(z);
     var top = select(z, -z, left);
     var sum = vec2f(0.0, 0.0);
     if left { // ψ′(z) = π² / sin² πz - (ψ′(-z) - 1/z²)

@@ -4,7 +4,7 @@
 /// (sin πx, cos πx), reduced exactly.
 fn sincos_pi(x: f32) -> vec2f {
     let a = magnitude(x);
-    let n = floor(a + 0.5);
+    let n = round(a); // not ⌊a + ½⌋: that sum is rounded from 2²³ on
     let f = a - n; // exact, in [-1/2, 1/2]
     let outer = magnitude(f) > 0.25;
     let g = select(magnitude(f), 0.5 - magnitude(f), outer);

@@ -138,7 +138,7 @@ fn complex_polygamma(z: vec2f, n: i32) -> vec2f {
         return select(vec2f(0.0, 0.0), vec2f(make_nan(z.x), make_nan(z.y)), complex_has_nan(z));
     }
     let scale = polygamma_scale(n);
-    if z.x >= 0.0 || is_zeta_far(z) {
+    if !is_reflected(z) {
         return scale * complex_zeta(n, z, 0.0);
     }
     let square = complex_square(3.1415927 * complex_inverse(complex_sin_pi(z)));

@@ -6,6 +6,8 @@
 use super::complex::{Complex, complex};
 use std::f64::consts::PI;
 
+use smallvec::SmallVec;
+
 /// From here on Stirling's series with ten terms is exact to working precision.
 const FAR: f64 = 15.0;
 const HALF_LOG_TAU: f64 = 0.918_938_533_204_672_8;
@@ -291,6 +293,12 @@ pub(super) fn is_far(z: Complex) -> bool {
     z.im.abs() >= FAR || z.re >= FAR
 }
 
+/// Whether a derivative of ψ is reflected: left of 0, where π²/sin² πz, about 40 e^(-2π|y|), may be more than all the
+/// rest, however small, for the rest is 1/z.
+pub(super) fn is_reflected(z: Complex) -> bool {
+    z.re < 0.0 && z.im.abs() < 100.0
+}
+
 /// cot πz = (sin πx cos πx - i sinh πy cosh πy) / (sin² πx + sinh² πy), where no part cancels, for |y| below 100.
 pub(super) fn cot_pi(z: Complex) -> Complex {
     let (sin, cos) = sin_cos_pi(z.re);
@@ -371,11 +379,27 @@ impl Complex {
             };
         }
         if self.re < 0.0 && !is_far(self) {
-            // ψ(z) = ψ(-z) - 1/z - π cot πz
-            return (-self).digamma() - self.inverse() - cot_pi(self).scale(PI);
+            // ψ(z) = ψ(-z) - 1/z - π cot πz; the first term of the recurrence for ψ(-z) is that 1/z, and left out
+            let right = (-self).digamma_right(true);
+            return right - cot_pi(self).scale(PI);
         }
-        let mut sum = Self::ZERO;
-        let top = climb(self, |z| sum = sum + z.inverse());
+        self.digamma_right(false)
+    }
+
+    /// ψ by the recurrence and its series, or ψ(z + 1) without forming z + 1, which would be rounded.
+    fn digamma_right(self, next: bool) -> Self {
+        let mut terms: SmallVec<[Self; 16]> = SmallVec::new();
+        let top = climb(self, |z| terms.push(z.inverse()));
+        let extra = if !next {
+            Self::ZERO
+        } else if terms.is_empty() {
+            self.inverse()
+        } else {
+            terms.remove(0);
+            Self::ZERO
+        };
+        // the small ones first
+        let sum = terms.iter().rev().fold(Self::ZERO, |sum, &t| sum + t);
         let inverse = top.inverse();
         let w = inverse.square();
         let series = BERNOULLI
@@ -385,7 +409,7 @@ impl Complex {
             .fold(Self::ZERO, |sum, (i, b)| {
                 sum * w + complex(b / (2.0 * i as f64 + 2.0), 0.0)
             });
-        top.log() - inverse.scale(0.5) - w * series - sum
+        top.log() - inverse.scale(0.5) - w * series - sum + extra
     }
 
     /// ψ′(z).
@@ -400,7 +424,7 @@ impl Complex {
                 Self::ZERO
             };
         }
-        if self.re < 0.0 && !is_far(self) {
+        if is_reflected(self) {
             // ψ′(z) = π² / sin² πz - ψ′(-z) + 1/z²
             let ratio = complex(PI, 0.0) / sin_pi(self);
             return ratio.square() - (-self).trigamma() + self.square().inverse();

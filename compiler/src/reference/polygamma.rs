@@ -2,7 +2,7 @@
 //! 25.11.12), whose asymptotic series (25.11.43), recurrence (25.11.3), and the reflection of ψ⁽ⁿ⁾ (5.15.6).
 
 use super::complex::{Complex, complex};
-use super::gamma::{cot_pi, is_far, is_pole, sin_cos_pi, sin_pi};
+use super::gamma::{cot_pi, is_far, is_pole, is_reflected, sin_cos_pi, sin_pi};
 use std::f64::consts::PI;
 
 /// From here on the series with ten terms is exact to working precision for n ≤ 5.
@@ -113,7 +113,7 @@ impl Complex {
                 Self::ZERO
             };
         }
-        if self.re < 0.0 && !is_far(self) {
+        if is_reflected(self) {
             let ratio = complex(PI, 0.0) / sin_pi(self);
             let wave = reflected(n, cot_pi(self).scale(PI), ratio.square(), |c, t| t.scale(c));
             let regular = (-self).zeta(n, 1.0).scale(factorial(n));

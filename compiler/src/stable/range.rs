@@ -29,8 +29,30 @@ fn grows_fast(prim: Prim) -> bool {
 impl Pass {
     /// A quotient whose numerator and divisor may leave the range where it does not.
     pub(super) fn in_range(&mut self, g: &mut Graph, n: Id, d: Id) -> Option<Id> {
-        let found = self.power_quotient(g, n, d);
+        let found = self.reciprocal(g, n, d);
+        let found = found.or_else(|| self.power_quotient(g, n, d));
         found.or_else(|| self.square_quotient(g, n, d))
+    }
+
+    /// c/cosh a = c·sech a for a constant c, and so on
+    fn reciprocal(&mut self, g: &mut Graph, n: Id, d: Id) -> Option<Id> {
+        let factor = g.as_real(n)?;
+        let (Some(wave), &[a]) = self.view(g, d) else {
+            return None;
+        };
+        let reciprocal = match wave {
+            Prim::Cosh => Prim::Sech,
+            Prim::Sinh => Prim::Csch,
+            Prim::Cos if !is_real(g, a) => Prim::Sec,
+            Prim::Sin if !is_real(g, a) => Prim::Csc,
+            _ => return None,
+        };
+        if !self.on(Rule::Reciprocal) {
+            return None;
+        }
+        let value = g.apply(reciprocal, &[a]);
+        let new = super::guard::scaled(g, factor, value);
+        self.by(Rule::Reciprocal, new)
     }
 
     /// aᵐ·b/aⁿ = aᵐ⁻ⁿ·b, of sums over one product, too

@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use pullback_compiler::What;
+use pullback_compiler::lower::Precision;
 use pullback_tests::accuracy::error::Judge;
 
 use super::{label, machines, run};
@@ -77,4 +78,78 @@ fn complex_limits_at_infinity_are_reached() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// 1/cosh and its like vanish far out, and so do their slopes, also where cosh overflows.
+#[test]
+fn reciprocals_of_what_overflows_vanish_with_their_slopes() {
+    let real = ["1/cosh(x)", "-2/sinh(x)", "sech(x)", "csch(x)"];
+    let complex = ["1/cosh(z)", "3/sinh(z)", "1/cos(i z)", "1/sin(i z)"];
+    for machine in machines().iter().skip(1) {
+        for text in real {
+            let source = format!("f(x: real) = {text}\n");
+            let points = [vec![100.0], vec![-100.0], vec![1e4], vec![-1e30]];
+            let rows = run(machine, &source, What::Gradient, &points);
+            let small = |v: &f64| v.abs() < 1e-40;
+            assert!(
+                rows.iter().flatten().all(small),
+                "{}: {text}: {rows:?}",
+                label(machine)
+            );
+        }
+        if machine.precision() == Some(Precision::Extended) {
+            continue; // complex ones take a shader compiler long
+        }
+        for text in complex {
+            let source = format!("f(z: complex) = {text}\n");
+            let points = [vec![100.0, 1.0], vec![-1e4, 2.0]];
+            let rows = run(machine, &source, What::Derivative, &points);
+            let small = |v: &f64| v.abs() < 1e-40;
+            assert!(
+                rows.iter().flatten().all(small),
+                "{}: {text}: {rows:?}",
+                label(machine)
+            );
+        }
+    }
+}
+
+/// Far left of 0 the reflection term π²/sin² πz of ψ′ is small, and more than all the rest; beside a pole it is all.
+/// References by mpmath, from the series of ψ′(1 - z).
+#[test]
+fn polygammas_are_reflected_far_left_of_zero() {
+    let machines = machines();
+    let some = machines
+        .iter()
+        .filter(|m| [None, Some(Precision::Accurate)].contains(&m.precision()));
+    for machine in some {
+        let run_one = |name: &str, at: [f64; 2]| {
+            let source = format!("f(z: complex) = {name}(z)\n");
+            run(machine, &source, What::Value, &[at.to_vec()]).remove(0)
+        };
+        let far = f64::from(-1e20_f32);
+        // at multiples of ¼ below 2²² single precision has the point itself
+        for (at, exact) in [
+            ([far, 5.5], -3.874_538_284_592_621e-14),
+            ([-1_000_000.25, 6.0], -9.999_992_499_644_792_5e-7),
+        ] {
+            let got = run_one("trigamma", at)[0];
+            let unit = machine.format().unit(exact);
+            assert!(
+                (got - exact).abs() < 64.0 * unit,
+                "{}: {got:e}",
+                label(machine)
+            );
+        }
+        // ψ ≈ log|z| - 1/(i y), with digits that a rounded ⌊x + ½⌋ has not
+        let beside = run_one("digamma", [-8_886_501.0, f64::from(3.0e-30_f32)]);
+        assert!(
+            (beside[0] - 16.000_043_997_977_535).abs() < 1e-5,
+            "{beside:?}"
+        );
+        assert!(
+            (beside[1] * f64::from(3.0e-30_f32) - 1.0).abs() < 1e-6,
+            "{beside:?}"
+        );
+    }
 }
