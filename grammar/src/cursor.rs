@@ -349,6 +349,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Reads one level deeper, or gives the statement up where that is too deep.
+    #[inline(always)]
     pub(crate) fn nested(&mut self, production: fn(&mut Self) -> Node) -> Node {
         if !self.descend() {
             let span = self.span();
@@ -401,7 +402,12 @@ impl<'a> Parser<'a> {
         };
         if !is_full && *count < MAX_KEPT {
             *count += 1;
+            let is_last = diagnostic.is_error() && *count == MAX_KEPT;
             self.diagnostics.push(diagnostic);
+            if is_last {
+                // nothing more would be listed
+                self.abandon();
+            }
         }
     }
 

@@ -108,6 +108,19 @@ impl Entry {
 pub(crate) struct Scope<'a> {
     is_builtin: &'a dyn Fn(&str) -> bool,
     names: HashMap<&'a str, Entry>,
+    /// The names of one letter, which most are in formulas, by their code.
+    letters: [Option<Entry>; LETTERS],
+}
+
+/// Number of the codes of one byte.
+const LETTERS: usize = 128;
+
+/// The code of a name of one letter.
+fn letter(name: &str) -> Option<usize> {
+    match name.as_bytes() {
+        &[letter] => Some(usize::from(letter)),
+        _ => None,
+    }
 }
 
 impl<'a> Scope<'a> {
@@ -116,18 +129,32 @@ impl<'a> Scope<'a> {
         Self {
             is_builtin,
             names: HashMap::new(),
+            letters: [None; LETTERS],
         }
     }
 
     fn entry(&mut self, name: &'a str) -> &mut Entry {
         let name = in_letters(name);
         let is_builtin = self.is_builtin;
-        self.names.entry(name).or_insert_with(|| Entry {
+        let new = || Entry {
             own: own_role(is_builtin, name),
             is_function: false,
             is_constant: false,
             bound: 0,
-        })
+        };
+        match letter(name).and_then(|code| self.letters.get_mut(code)) {
+            Some(entry) => entry.get_or_insert_with(new),
+            None => self.names.entry(name).or_insert_with(new),
+        }
+    }
+
+    /// What is known of a name, if it has been met.
+    fn get(&self, name: &str) -> Option<&Entry> {
+        let name = in_letters(name);
+        match letter(name) {
+            Some(code) => self.letters.get(code)?.as_ref(),
+            None => self.names.get(name),
+        }
     }
 
     /// Adds a function of the file.
@@ -147,14 +174,19 @@ impl<'a> Scope<'a> {
 
     /// A parameter or local ends to hold.
     pub(crate) fn unbind(&mut self, name: &str) {
-        if let Some(entry) = self.names.get_mut(in_letters(name)) {
+        let name = in_letters(name);
+        let entry = match letter(name) {
+            Some(code) => self.letters.get_mut(code).and_then(Option::as_mut),
+            None => self.names.get_mut(name),
+        };
+        if let Some(entry) = entry {
             entry.bound = entry.bound.saturating_sub(1);
         }
     }
 
     /// Whether the file defines a function of this name.
     pub(crate) fn defines_function(&self, name: &str) -> bool {
-        let entry = self.names.get(in_letters(name));
+        let entry = self.get(name);
         entry.is_some_and(|entry| entry.is_function)
     }
 
@@ -165,16 +197,15 @@ impl<'a> Scope<'a> {
 
     /// Whether nothing of the file is called so here, so that the name means what it does in the language.
     pub(crate) fn is_free(&self, name: &str) -> bool {
-        let entry = self.names.get(in_letters(name));
+        let entry = self.get(name);
         entry.is_none_or(|entry| entry.bound == 0 && !entry.is_function && !entry.is_constant)
     }
 
     /// What the name stands for here.
     pub(crate) fn role(&self, name: &str) -> Role {
-        let name = in_letters(name);
-        match self.names.get(name) {
+        match self.get(name) {
             Some(entry) => entry.role(),
-            None => own_role(self.is_builtin, name),
+            None => own_role(self.is_builtin, in_letters(name)),
         }
     }
 

@@ -7,6 +7,7 @@ use crate::token::TokenKind;
 
 impl Parser<'_> {
     /// `sum = product { ( "+" | "-" ) product }`
+    #[inline(always)]
     pub(crate) fn sum(&mut self) -> Node {
         let mut lhs = self.product();
         loop {
@@ -69,6 +70,7 @@ impl Parser<'_> {
     }
 
     /// `power = root | postfix [ "^" prefix ]`
+    #[inline(always)]
     fn power(&mut self) -> Node {
         if self.at(TokenKind::Root) {
             return self.root();

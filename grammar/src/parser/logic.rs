@@ -6,6 +6,7 @@ use crate::token::TokenKind;
 
 impl Parser<'_> {
     /// `disjunction = conjunction { "or" conjunction }`
+    #[inline(always)]
     pub(crate) fn disjunction(&mut self) -> Node {
         let mut lhs = self.conjunction();
         while self.eat(TokenKind::Or) {
@@ -16,6 +17,7 @@ impl Parser<'_> {
     }
 
     /// `conjunction = negation { "and" negation }`
+    #[inline(always)]
     fn conjunction(&mut self) -> Node {
         let mut lhs = self.negation();
         while self.eat(TokenKind::And) {
@@ -26,6 +28,7 @@ impl Parser<'_> {
     }
 
     /// `negation = "not" negation | comparison`
+    #[inline(always)]
     pub(crate) fn negation(&mut self) -> Node {
         if !self.at(TokenKind::Not) {
             return self.comparison();
@@ -36,6 +39,7 @@ impl Parser<'_> {
     }
 
     /// `comparison = sum { ( "<" | "<=" | ">" | ">=" | "==" | "!=" ) sum }`
+    #[inline(always)]
     fn comparison(&mut self) -> Node {
         let first = self.sum();
         let mut rest = Vec::new();

@@ -6,6 +6,7 @@ use crate::token::TokenKind;
 
 impl Parser<'_> {
     /// `postfix = primary { "!" | SUPERSCRIPT | component }`
+    #[inline(always)]
     pub(crate) fn postfix(&mut self) -> Node {
         let mut node = self.primary();
         loop {

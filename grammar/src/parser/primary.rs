@@ -70,14 +70,15 @@ impl Parser<'_> {
             return self.error_node(whole);
         }
         let first = self.expr();
-        let mut items = vec![first.id];
+        if !self.separator(&opened) {
+            let span = opened.span.join(self.last_span());
+            return Node { id: first.id, span };
+        }
+        let mut items = vec![first.id, self.expr().id];
         while self.separator(&opened) {
             items.push(self.expr().id);
         }
         let span = opened.span.join(self.last_span());
-        if items.len() == 1 {
-            return Node { id: first.id, span };
-        }
         if items.len() > 4 {
             self.complain_long_vector(span, items.len());
             return self.error_node(span);
