@@ -3,6 +3,7 @@
 //! The operator table says what there is and what is declared of it; the tables of `tests/oracle`, which the program
 //! carries, say what is right.
 
+pub mod allowance;
 pub mod bounds;
 pub mod cost;
 pub mod decimal;

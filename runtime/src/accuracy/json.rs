@@ -19,6 +19,7 @@ struct Document<'s> {
     clock: &'static str,
     quick: bool,
     random_points: usize,
+    allowances: &'s [String],
     functions: Vec<Function<'s>>,
     exceptions: &'s [String],
 }
@@ -93,6 +94,7 @@ pub fn json(survey: &Survey) -> Result<String, serde_json::Error> {
         },
         quick: survey.quick,
         random_points: survey.random_points,
+        allowances: &survey.allowances,
         functions: survey.rows.iter().map(function).collect(),
         exceptions: &survey.exceptions,
     };

@@ -91,6 +91,9 @@ fn head(survey: &Survey) -> String {
          the tables of references, and for tiers below float64 {} random ones.\n",
         survey.random_points
     );
+    for allowance in &survey.allowances {
+        out += &format!("Allowed for this adapter in {allowance}.\n");
+    }
     out
 }
 

@@ -4,6 +4,7 @@ use std::sync::Mutex;
 
 use pullback_compiler::lower::Precision;
 
+use super::allowance::Allowance;
 use super::bounds::{Declared, declared, violations};
 use super::cost::{Cost, Meter};
 use super::error::Format;
@@ -11,7 +12,7 @@ use super::evaluators::Machine;
 use super::measure::{Measured, measure};
 use super::subjects::Subject;
 use super::sweep::judged_by;
-use crate::{Error, Gpu, pool};
+use crate::{Capabilities, Error, Gpu, pool};
 
 /// Random points of each kind, beside the tables.
 const EACH: usize = 20_000;
@@ -58,6 +59,8 @@ pub struct Row {
 pub struct Survey {
     /// The adapter in words; empty where there was none to judge.
     pub adapter: String,
+    /// What each tier is allowed for the adapter's arithmetic, in words, where it is anything.
+    pub allowances: Vec<String>,
     /// Whether times are by the device's clock.
     pub device_clock: bool,
     /// Whether it was a quick one.
@@ -110,6 +113,7 @@ pub fn survey(
             .first()
             .map(|gpu| gpu.adapter().to_string())
             .unwrap_or_default(),
+        allowances: allowances(gpus.first(), &tiers)?,
         device_clock: false,
         quick: plan.quick,
         random_points: 3 * each,
@@ -159,6 +163,22 @@ pub fn survey(
         price(gpus, plan, &tiers, &mut out, &mut step)?;
     }
     Ok(out)
+}
+
+fn allowances(gpu: Option<&Gpu>, tiers: &[Option<Precision>]) -> Result<Vec<String>, Error> {
+    let Some(gpu) = gpu else {
+        return Ok(Vec::new());
+    };
+    let found = Capabilities::of(gpu)?;
+    let promised = tiers
+        .iter()
+        .flatten()
+        .filter(|&&tier| tier != Precision::Fast);
+    let words = promised.map(|tier| (tier, Allowance::of(&found, tier.format()).words()));
+    Ok(words
+        .filter(|(_, words)| !words.is_empty())
+        .map(|(tier, words)| format!("{}: {words}", tier.name()))
+        .collect())
 }
 
 /// Subjects with places of tiers, those first that take the longest: the finest tiers.
@@ -212,15 +232,27 @@ fn price(
 }
 
 fn judge(subject: &Subject, machine: &Machine, each: usize) -> Result<Finding, String> {
-    let declared = declared(subject, machine)?;
-    let judged = judged_by(subject, machine, each)?;
+    let format = machine.format();
+    let allowance = allowance(machine).map_err(|e| e.to_string())?;
+    let mut declared = declared(subject, machine)?;
+    declared.value = declared.value.map(|bound| allowance.raised(bound));
+    declared.derivative = declared.derivative.map(|bound| allowance.raised(bound));
+    let judged = allowance.fair(judged_by(subject, machine, each)?, format);
     Ok(Finding {
         tier: machine.precision(),
-        format: machine.format(),
+        format,
         declared,
         measured: measure(&judged, machine)?,
         cost: None,
     })
+}
+
+/// What the machine's adapter is allowed.
+fn allowance(machine: &Machine) -> Result<Allowance, Error> {
+    match machine {
+        Machine::Reference => Ok(Allowance::default()),
+        Machine::Gpu(gpu, _) => Ok(Allowance::of(&*Capabilities::of(gpu)?, machine.format())),
+    }
 }
 
 /// Bounds that a function breaks; on `fast` nothing is promised.
