@@ -17,6 +17,7 @@ import mpmath as mp
 from functions import COMPLEX, REAL, SLOW, STEP, f32
 
 EACH = 16
+EACH_REAL = 60
 NAMES = [n for n in REAL if n not in ("abs", "re", "im", "conj", "arg", "neg")]
 COMPLEX_NAMES = {
     **{n: f for n, f in COMPLEX.items() if n not in ("exp2", "log2", "log10", "cbrt", "sinc")},
@@ -124,7 +125,7 @@ PLACES = {
     **dict.fromkeys(("exp", "expm1"), [turned(at_quarter_turn), turned(many_turns), steep, turned(steep), tiny]),
     **dict.fromkeys(SLOW, gammas),
 }
-VISITS = 25
+VISITS = 40
 
 
 def text(v):
@@ -147,7 +148,7 @@ def rows():
     for name in NAMES:
         fn, defined = REAL[name][:2]
         count = 0
-        while count < EACH:
+        while count < EACH_REAL:
             x = pair(rng, count % 3)
             if x == 0 or not defined(mp.mpf(x)):
                 continue
@@ -158,14 +159,14 @@ def rows():
     for name in ("gamma", "lgamma", "digamma", "trigamma"):
         fn = REAL[name][0]
         centres = [0.0, -1.0, -2.0, -5.0, -11.0, 1.0, 2.0, 1.4616321449683623, -0.504083008264455, 0.5]
-        spans = [(0, 34), (-25, 0), (34, 100)]
+        spans = [(0, 34), (-25, 0), (34, 100), (-1e6, -25)]
         for k in range(VISITS):
-            x = widened(rng, centres[k % 10] + offset(rng) if k % 5 < 3 else rng.uniform(*spans[k // 5 % 3]))
+            x = widened(rng, centres[k % 10] + offset(rng) if k % 5 < 3 else rng.uniform(*spans[k % 4]))
             found = [fn(mp.mpf(x))], [slope(fn, mp.mpf(x), STEP)]
             if reach(found[0] + found[1]):
                 yield row(name, "real", [x], *found)
     for name, fn in PAIRS.items():
-        for k in range(EACH):
+        for k in range(EACH_REAL):
             x, y = pair(rng, k % 3), pair(rng, 1)
             x = abs(x) if name == "pow" else x
             a, b = mp.mpf(x), mp.mpf(y)
