@@ -77,7 +77,8 @@ fn complex_pi_cot_pi(z: Complex, w: PiWaves) -> Complex {
     let sinh = scale(w.hyperbolic.first, e);
     let norm = real_add(real_square(sine), real_square(sinh));
     if is_below(norm, 1e-20) { // beside a pole, where the squares may underflow: 1/z
-        return complex_inverse(Complex(nearest_fraction(z.re).part, z.im));
+        let part = nearest_fraction(real_abs(z.re)).part;
+        return complex_inverse(Complex(flip_if(part, sign_is_set(z.re)), z.im));
     }
     let ratio = real_div(real_pi(), norm);
     return Complex(

@@ -1,7 +1,7 @@
 // The gamma function and its logarithmic derivatives of a real argument: Stirling's series from 10 on (DLMF 5.11.1-2),
 // the recurrence to get there (DLMF 5.5.1-2), reflection left of 0 (DLMF 5.5.3-4). Constants are those of special.py.
 
-/// x less the nearest integer, exactly, and whether that is odd.
+/// x ≥ 0 less the nearest integer, exactly, and whether that is odd.
 struct Fraction {
     part: real,
     odd: bool,
