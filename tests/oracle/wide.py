@@ -17,13 +17,20 @@ import mpmath as mp
 from functions import COMPLEX, REAL, SLOW, STEP, f32
 
 EACH = 16
+EACH_REAL = 60
 NAMES = [n for n in REAL if n not in ("abs", "re", "im", "conj", "arg", "neg")]
 COMPLEX_NAMES = {
     **{n: f for n, f in COMPLEX.items() if n not in ("exp2", "log2", "log10", "cbrt", "sinc")},
     **SLOW, "square": lambda z: z * z, "pow7": lambda z: z**7, "inverse": lambda z: 1 / z,
 }
-# Parts of complex numbers: real, with no derivative.
-PARTS = {"abs": abs, "arg": mp.arg}
+# What has no complex derivative: the value, and the derivatives by z and by its conjugate (Wirtinger).
+PARTS = {
+    "abs": lambda z: (abs(z), mp.conj(z) / (2 * abs(z)), z / (2 * abs(z))),
+    "arg": lambda z: (mp.arg(z), 1 / (2 * mp.j * z), -1 / (2 * mp.j * mp.conj(z))),
+    "re": lambda z: (z.real, mp.mpc(0.5), mp.mpc(0.5)),
+    "im": lambda z: (z.imag, -mp.j / 2, mp.j / 2),
+    "conj": lambda z: (mp.conj(z), mp.mpc(0), mp.mpc(1)),
+}
 PAIRS = {
     "add": lambda x, y: x + y, "sub": lambda x, y: x - y, "mul": lambda x, y: x * y, "div": lambda x, y: x / y,
     "hypot": mp.hypot, "atan2": mp.atan2, "pow": lambda x, y: mp.power(abs(x), y),
@@ -117,14 +124,14 @@ waves = [at_quarter_turn, many_turns, steep, tiny, turned(steep)]
 gammas = [beside_gamma_pole, left, right]
 # Where each is hardest, beside the random places of all: places that are visited one after another.
 PLACES = {
-    **dict.fromkeys(("log", "sqrt", "inverse", "square", "pow7", "abs", "arg"), [on_circle, beside_cut, far, tiny, lambda rng: beside(rng, 1.0, 0.0)]),
+    **dict.fromkeys(("log", "sqrt", "inverse", "square", "pow7", *PARTS), [on_circle, beside_cut, far, tiny, lambda rng: beside(rng, 1.0, 0.0)]),
     "log1p": [tiny, lambda rng: beside(rng, -1.0, 0.0), beside_cut, far, on_shifted_circle],
     **dict.fromkeys(("asin", "acos", "acosh", "atanh"), branches), **dict.fromkeys(("asinh", "atan"), [turned(p) for p in branches]),
     **dict.fromkeys(("sin", "cos", "tan", "sec", "csc"), waves), **dict.fromkeys(("sinh", "cosh", "tanh", "sech", "csch"), [turned(p) for p in waves]),
     **dict.fromkeys(("exp", "expm1"), [turned(at_quarter_turn), turned(many_turns), steep, turned(steep), tiny]),
     **dict.fromkeys(SLOW, gammas),
 }
-VISITS = 25
+VISITS = 40
 
 
 def text(v):
@@ -137,8 +144,7 @@ def slope(fn, x, h):
 
 def row(name, domain, args, value, slopes):
     assert all(f32(x) + f32(x - f32(x)) == x for x in args), args
-    slopes = " ".join(map(text, slopes)) if slopes else "- -"
-    return "\t".join([name, domain, " ".join(map(repr, args)), " ".join(map(text, value)), slopes]) + "\n"
+    return "\t".join([name, domain, " ".join(map(repr, args)), " ".join(map(text, value)), " ".join(map(text, slopes))]) + "\n"
 
 
 def rows():
@@ -147,7 +153,7 @@ def rows():
     for name in NAMES:
         fn, defined = REAL[name][:2]
         count = 0
-        while count < EACH:
+        while count < EACH_REAL:
             x = pair(rng, count % 3)
             if x == 0 or not defined(mp.mpf(x)):
                 continue
@@ -158,14 +164,14 @@ def rows():
     for name in ("gamma", "lgamma", "digamma", "trigamma"):
         fn = REAL[name][0]
         centres = [0.0, -1.0, -2.0, -5.0, -11.0, 1.0, 2.0, 1.4616321449683623, -0.504083008264455, 0.5]
-        spans = [(0, 34), (-25, 0), (34, 100)]
+        spans = [(0, 34), (-25, 0), (34, 100), (-1e6, -25)]
         for k in range(VISITS):
-            x = widened(rng, centres[k % 10] + offset(rng) if k % 5 < 3 else rng.uniform(*spans[k // 5 % 3]))
+            x = widened(rng, centres[k % 10] + offset(rng) if k % 5 < 3 else rng.uniform(*spans[k % 4]))
             found = [fn(mp.mpf(x))], [slope(fn, mp.mpf(x), STEP)]
             if reach(found[0] + found[1]):
                 yield row(name, "real", [x], *found)
     for name, fn in PAIRS.items():
-        for k in range(EACH):
+        for k in range(EACH_REAL):
             x, y = pair(rng, k % 3), pair(rng, 1)
             x = abs(x) if name == "pow" else x
             a, b = mp.mpf(x), mp.mpf(y)
@@ -177,10 +183,13 @@ def rows():
         hard = [PLACES[name][k % len(PLACES[name])](rng) for k in range(VISITS)]
         for x, y in ordinary + hard:
             z = mp.mpc(x, y)
-            v, d = fn(z), None if name in PARTS else slope(fn, z, STEP * max(1, abs(z)))
-            if name in PARTS and reach([v]):
-                yield row(name, "complex", [x, y], [v, mp.mpf(0)], None)
-            elif name not in PARTS and reach([v.real, v.imag]) and reach([abs(d)]):
+            if name in PARTS:
+                v, *slopes = fn(z)
+                if reach([abs(v)]):
+                    yield row(name, "complex", [x, y], [v.real, v.imag], [t for d in slopes for t in (d.real, d.imag)])
+                continue
+            v, d = fn(z), slope(fn, z, STEP * max(1, abs(z)))
+            if reach([v.real, v.imag]) and reach([abs(d)]):
                 yield row(name, "complex", [x, y], [v.real, v.imag], [d.real, d.imag])
     for name, fn in (("mul", lambda z, w: z * w), ("div", lambda z, w: z / w), ("pow", mp.power)):
         for z, w in couples(name, rng):

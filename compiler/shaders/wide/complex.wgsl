@@ -304,10 +304,9 @@ fn complex_exp(z: Complex) -> Complex {
         return Complex(choose(fades, num(0.0), z.re), choose(fades, num(0.0), make_nan(z.im)));
     }
     let s = exp_of_parts(z.re);
-    return Complex(
-        scale(real_mul(s.value, wave.second), s.exponent),
-        choose(is_zero(z.im), z.im, scale(real_mul(s.value, wave.first), s.exponent)),
-    );
+    let size = scale(s.value, 60); // so that a small part keeps its digits
+    let im = scale(real_mul(size, wave.first), s.exponent - 60);
+    return Complex(scale(real_mul(size, wave.second), s.exponent - 60), choose(is_zero(z.im), z.im, im));
 }
 
 /// log z, cut along the negative axis. The real part keeps its relative accuracy near |z| = 1.

@@ -42,7 +42,7 @@ fn series_coefficient(k: i32, family: i32) -> real {
     return bernoulli_number(k);
 }
 
-/// (sinh πy, cosh πy) for |y| ≤ 12: πy in a long number, for the error of its first part would come out multiplied.
+/// (sinh πy, cosh πy) for |y| ≤ 16: πy in a long number, for the error of its first part would come out multiplied.
 fn sinhcosh_pi(y: real) -> RealPair {
     let angle = long_mul(long_lit(3.1415927, -8.742278e-08, -3.430249e-15, 2.1125998e-23, 1.6956855e-31), y);
     let h = real_sinhcosh(angle.hi);
@@ -52,7 +52,7 @@ fn sinhcosh_pi(y: real) -> RealPair {
     );
 }
 
-/// sin πx, cos πx, sinh πy, cosh πy of z = x + i y, |y| ≤ 12, the turns of x reduced exactly.
+/// sin πx, cos πx, sinh πy, cosh πy of z = x + i y, |y| ≤ 16, the turns of x reduced exactly.
 struct PiWaves {
     circular: RealPair,
     hyperbolic: RealPair,
@@ -72,14 +72,18 @@ fn complex_sin_pi(w: PiWaves) -> Complex {
 
 /// π cot πz = π (sin πx cos πx - i sinh πy cosh πy) / (sin² πx + sinh² πy): no part cancels.
 fn complex_pi_cot_pi(z: Complex, w: PiWaves) -> Complex {
-    let norm = real_add(real_square(w.circular.first), real_square(w.hyperbolic.first));
+    let e = select(0, -40, is_above(real_abs(z.im), 6.0)); // the squares may overflow
+    let sine = scale(w.circular.first, e);
+    let sinh = scale(w.hyperbolic.first, e);
+    let norm = real_add(real_square(sine), real_square(sinh));
     if is_below(norm, 1e-20) { // beside a pole, where the squares may underflow: 1/z
-        return complex_inverse(Complex(real_sub(z.re, real_floor(add32(z.re, 0.5))), z.im));
+        let part = nearest_fraction(real_abs(z.re)).part;
+        return complex_inverse(Complex(flip_if(part, sign_is_set(z.re)), z.im));
     }
     let ratio = real_div(real_pi(), norm);
     return Complex(
-        real_mul(real_mul(w.circular.first, w.circular.second), ratio),
-        real_neg(real_mul(real_mul(w.hyperbolic.first, w.hyperbolic.second), ratio)),
+        real_mul(real_mul(sine, scale(w.circular.second, e)), ratio),
+        real_neg(real_mul(real_mul(sinh, scale(w.hyperbolic.second, e)), ratio)),
     );
 }
 

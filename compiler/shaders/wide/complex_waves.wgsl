@@ -6,16 +6,14 @@
 fn complex_sinhcosh(z: Complex) -> ComplexPair {
     let wave = real_sincos(z.im);
     let h = scaled_sinhcosh(z.re);
-    let along = scale(real_mul(real_abs(h.sinh), real_abs(wave.second)), h.exponent);
-    let across = scale(real_mul(real_abs(h.sinh), real_abs(wave.first)), h.exponent);
-    var sinh = Complex(
-        flip_if(along, signs_differ(z.re, wave.second)),
-        scale(real_mul(h.cosh, wave.first), h.exponent),
-    );
-    var cosh = Complex(
-        scale(real_mul(h.cosh, wave.second), h.exponent),
-        flip_if(across, signs_differ(z.re, wave.first)),
-    );
+    // 2^60 times too large, so that small ones keep their digits
+    let high = scale(h.cosh, 60);
+    let low = scale(real_abs(h.sinh), 60);
+    let e = h.exponent - 60;
+    let along = scale(real_mul(low, real_abs(wave.second)), e);
+    let across = scale(real_mul(low, real_abs(wave.first)), e);
+    var sinh = Complex(flip_if(along, signs_differ(z.re, wave.second)), scale(real_mul(high, wave.first), e));
+    var cosh = Complex(scale(real_mul(high, wave.second), e), flip_if(across, signs_differ(z.re, wave.first)));
     if is_zero(z.im) { // of NaN, too
         sinh.im = z.im;
         cosh.im = flip_if(z.im, sign_is_set(z.re));

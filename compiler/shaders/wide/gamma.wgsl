@@ -1,20 +1,31 @@
 // The gamma function and its logarithmic derivatives of a real argument: Stirling's series from 10 on (DLMF 5.11.1-2),
 // the recurrence to get there (DLMF 5.5.1-2), reflection left of 0 (DLMF 5.5.3-4). Constants are those of special.py.
 
+/// x ≥ 0 less the nearest integer, exactly, and whether that is odd.
+struct Fraction {
+    part: real,
+    odd: bool,
+}
+
+/// x + 1/2 may round, so the integer below comes first.
+fn nearest_fraction(x: real) -> Fraction {
+    let below = real_floor(x);
+    let rest = real_sub(x, below);
+    let up = real_less(num(0.5), rest);
+    let half = mul32(below, 0.5);
+    return Fraction(choose(up, add32(rest, -1.0), rest), real_not_equal(half, real_floor(half)) != up);
+}
+
 /// (sin πx, cos πx) of a finite x, reduced exactly.
 fn sincos_pi(x: real) -> RealPair {
-    let a = real_abs(x);
-    let n = real_floor(add32(a, 0.5));
-    let f = real_sub(a, n); // exact, in [-1/2, 1/2]
-    let g = real_abs(f);
+    let n = nearest_fraction(real_abs(x));
+    let g = real_abs(n.part);
     let outer = is_above(g, 0.25);
     let angle = real_mul(choose(outer, real_sub(num(0.5), g), g), real_pi()); // up to π/4: nothing to reduce
     let wave = RealPair(sin_near(angle, num(0.0)), cos_near(angle, num(0.0)));
-    let half = mul32(n, 0.5);
-    let odd = real_not_equal(half, real_floor(half));
     return RealPair(
-        flip_if(choose(outer, wave.second, wave.first), (odd != sign_is_set(x)) != sign_is_set(f)),
-        flip_if(choose(outer, wave.first, wave.second), odd),
+        flip_if(choose(outer, wave.second, wave.first), (n.odd != sign_is_set(x)) != sign_is_set(n.part)),
+        flip_if(choose(outer, wave.first, wave.second), n.odd),
     );
 }
 
@@ -172,7 +183,7 @@ fn real_gamma(x: real) -> real {
     if is_above(y, 1000.0) {
         return flip_if(num(0.0), !sign_is_set(wave));
     }
-    return scale(real_neg(real_div(real_pi(), real_mul(real_mul(y, wave), s.value))), -s.exponent);
+    return scale(real_neg(real_div(real_pi(), real_mul(y, real_mul(wave, s.value)))), -s.exponent);
 }
 
 /// 1 - γ, then (-1)^k (ζ(k) - 1)/k, k = 2 … 29 (DLMF 5.7.3).
@@ -248,8 +259,8 @@ fn real_lgamma(x: real) -> real {
         return make_infinity(num(1.0));
     }
     let y = real_abs(x);
-    if is_below(y, 1e-17) {
-        return real_neg(real_log(y));
+    if is_below(y, 1e-9) { // -log |x| - γ x + O(x²), DLMF 5.7.3
+        return real_neg(real_add(real_log(y), real_mul(x, lit(0.5772157, -6.637774e-09, 1.0607939e-16))));
     }
     let r = lgamma_of_positive(y);
     if !sign_is_set(x) {

@@ -99,7 +99,7 @@ fn real_powi(x: real, n: i32) -> real {
             return p;
         }
         let e = select(0, exponent_of(p), is_finite(p) && !is_zero(p));
-        if n == -1 || abs(e) < 100 {
+        if n == -1 || abs(e) < 76 { // else a pair may have lost digits
             return real_div(one, p);
         }
     }

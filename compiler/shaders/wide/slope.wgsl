@@ -62,10 +62,10 @@ fn complex_asin_slope(z: Complex) -> Complex {
     return complex_inverse(Complex(re, other_part(real_neg(z.re), z.im, re, plain)));
 }
 
-/// x y / part, or what comes out plainly where that cannot be had.
-fn other_part(x: real, y: real, part: real, plain: real) -> real {
-    let r = real_mul(x, real_div(y, part));
-    return choose(is_finite(r), r, plain);
+/// A part of a product of roots, as a sum of two terms and as x y / part: the sum where it is the greater part, for then
+/// little of it cancels, else the quotient.
+fn other_part(x: real, y: real, part: real, sum: real) -> real {
+    return choose(real_less(real_abs(part), real_abs(sum)), sum, real_mul(x, real_div(y, part)));
 }
 
 /// 1/(√(1 + i z) √(1 - i z)), whose cuts are those of arsinh. Error: 12 u each component.

@@ -21,12 +21,18 @@ const RUNS: usize = 4;
 /// Below this magnitude the lower word of a pair is subnormal, and flushed: docs/numerics.md.
 const LEAST_OF_PAIRS: f64 = 1.0 / (1u128 << 80) as f64;
 
-/// Whether a format has all its digits for the arguments of a case. Those of complex numbers are not asked: a part far below
-/// the other is what makes them hard.
+/// Whether a format has all its digits for the arguments of a case. Of complex numbers those in tables are not asked: a part
+/// far below the other is what makes them hard.
 #[must_use]
 pub fn has_digits(subject: &Subject, format: Format, case: &Case) -> bool {
-    let enough = |x: &f64| *x == 0.0 || x.is_nan() || x.abs() >= LEAST_OF_PAIRS;
-    format != Format::Pair || subject.domain == Domain::Complex || case.args.iter().all(enough)
+    // a power in a divisor has to have them, too: x³ of a derivative
+    let least = match subject.word {
+        "inverse_square" => LEAST_OF_PAIRS.cbrt(),
+        _ => LEAST_OF_PAIRS,
+    };
+    let enough = |x: &f64| *x == 0.0 || x.is_nan() || x.abs() >= least;
+    let table = subject.domain == Domain::Complex && case.notes != NOTE;
+    format != Format::Pair || table || case.args.iter().all(enough)
 }
 
 /// A subject with the cases that a machine is judged by. `each` random points are of every size that float32 has, as
@@ -98,6 +104,11 @@ pub fn points(subject: &Subject, format: Format, each: usize) -> Result<Vec<Poin
             }
             let args: Vec<f64> = first.args.iter().map(|_| number(spread)).collect();
             if subject.word == "gamma" && args.iter().any(|x| x.abs() > GAMMA_FAR) {
+                continue;
+            }
+            // here the reference is off by more than its bound: |w log z| ulps
+            let far = format == Format::Pair && spread == Spread::Sizes;
+            if subject.name() == "pow (complex)" && far {
                 continue;
             }
             points.push(Point {
