@@ -126,6 +126,8 @@ pub(super) struct Pass {
     pub(super) alone: bool,
     /// Steps left for the rewrite at hand.
     pub(super) patience: usize,
+    /// Differences that have no better form, and to which depth that is known: of two nodes, and whether inputs count.
+    pub(super) hopeless: FxHashMap<(Id, Id, bool), usize>,
 }
 
 impl Pass {
@@ -140,6 +142,7 @@ impl Pass {
             inputs_too: false,
             alone: false,
             patience: 0,
+            hopeless: FxHashMap::default(),
         }
     }
 

@@ -30,6 +30,9 @@ impl Pass {
             return None;
         }
         let depth = depth.checked_sub(1)?;
+        if !self.may_divide(g, a) && !self.may_divide(g, b) {
+            return None;
+        }
         let left = self.quotient(g, a, 1.0)?;
         let right = self.quotient(g, b, k)?;
         if left.divisors.is_empty() && right.divisors.is_empty() {
@@ -138,6 +141,23 @@ impl Pass {
         );
         monomial.retain(|(_, p)| *p != 0);
         *numerator = super::polynomial::build_term(g, &monomial, *value);
+    }
+
+    /// Whether [`Self::quotient`] may find a divisor in a monomial; to be known before one is built.
+    fn may_divide(&self, g: &Graph, monomial: &Monomial) -> bool {
+        monomial.iter().any(|&(atom, power)| {
+            let node = g.node(self.plain(atom));
+            power < 0
+                || match node.op {
+                    Op::Apply(Prim::Div) => true,
+                    Op::Apply(Prim::PowInt(n)) => n < 0,
+                    Op::Apply(Prim::Mul) => node
+                        .args
+                        .iter()
+                        .any(|&a| matches!(self.view(g, a).0, Some(Prim::Div | Prim::Mul))),
+                    _ => false,
+                }
+        })
     }
 
     /// A constant times a monomial as a quotient.

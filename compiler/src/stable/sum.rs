@@ -40,11 +40,20 @@ impl Pass {
     /// u - v, where it is simpler than that.
     pub(super) fn difference(&mut self, g: &mut Graph, u: Id, v: Id, depth: usize) -> Option<Id> {
         let depth = depth.checked_sub(1)?;
+        let question = (u, v, self.inputs_too);
+        if self.hopeless.get(&question).is_some_and(|&to| depth <= to) {
+            return None;
+        }
         let (p, q) = (
             self.polynomial(g, u, Expand::Constants)?,
             self.polynomial(g, v, Expand::Constants)?,
         );
-        self.improved(g, p.add(&q, -1.0)?, depth)
+        let found = self.improved(g, p.add(&q, -1.0)?, depth);
+        // without patience left it is not known
+        if found.is_none() && self.patience > 0 {
+            self.hopeless.insert(question, depth);
+        }
+        found
     }
 
     /// factor · (u + v), simplified where that is possible.
@@ -351,10 +360,10 @@ impl Pass {
             if !is_real(g, a) || !is_real(g, b) || !is_real(g, c) || !is_real(g, d) {
                 return None;
             }
-            let (Some(second), Some(first)) = (
-                self.difference(g, b, d, depth),
-                self.difference(g, a, c, depth),
-            ) else {
+            let Some(second) = self.difference(g, b, d, depth) else {
+                continue;
+            };
+            let Some(first) = self.difference(g, a, c, depth) else {
                 continue;
             };
             // a difference that is still one may cancel as before, and then nothing is gained
