@@ -41,8 +41,8 @@ const CONDITIONS: [Condition; 17] = [
     ("not (x != y)", |x, y| !(x != y)),
     ("not (x < y) and not (x > y)", |x, y| !(x < y) && !(x > y)),
     ("not (x < y or x >= y)", |x, y| !(x < y || x >= y)),
-    ("x != x", |x, _| x != x),
-    ("x == x", |x, _| x == x),
+    ("x != x", |x, _| x.is_nan()),
+    ("x == x", |x, _| !x.is_nan()),
 ];
 
 fn machines() -> Vec<Machine> {

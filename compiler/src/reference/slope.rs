@@ -97,19 +97,53 @@ pub fn complex_atan(z: Complex) -> Complex {
     complex_atanh(z.mul_i())
 }
 
-/// 1/(1 - z²).
+/// 1/(1 - z²), of a z scaled by a power of two where its square would overflow; 1 - x² + y² is summed with the errors of
+/// its terms, so that each component has its digits.
 pub fn complex_atanh(z: Complex) -> Complex {
-    in_right_half(z, |z| {
+    let size = z.re.abs().max(z.im.abs());
+    if !size.is_finite() {
         let (below, above) = sides(z);
-        below.inverse() * above.inverse()
-    })
+        return below.inverse() * above.inverse();
+    }
+    let scale = if size > 1.0 {
+        power_of_two_below(size).recip()
+    } else {
+        1.0
+    };
+    let v = z.scale(scale);
+    let (xx, yy) = (v.re * v.re, v.im * v.im);
+    let lost = v.im.mul_add(v.im, -yy) - v.re.mul_add(v.re, -xx);
+    let difference = yy - xx;
+    let sum = difference + scale * scale;
+    let rest = sum_error(yy, -xx, difference) + sum_error(difference, scale * scale, sum);
+    let inverse = complex(sum + (rest + lost), -2.0 * v.re * v.im).inverse();
+    inverse.scale(scale).scale(scale)
 }
 
-/// 1/(√(1 - z) √(1 + z)), whose cuts are those of arcsin (Kahan 1987).
+/// The greatest power of two that is not above a number from 1 on.
+fn power_of_two_below(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & (0x7ff << 52))
+}
+
+/// x y / part by a quotient that does not overflow where the part is more than a trifle of `other`; else `other`, which
+/// then has not cancelled.
+fn part_of_root(x: f64, y: f64, part: f64, other: f64) -> f64 {
+    if part.abs() > 1e-9 * other.abs() {
+        x / part * y
+    } else {
+        other
+    }
+}
+
+/// 1/(√(1 - z) √(1 + z)), whose cuts are those of arcsin (Kahan 1987). Of the product s one component is a sum of terms of
+/// one sign, and the other follows from s² = 1 - z².
 pub fn complex_asin(z: Complex) -> Complex {
     in_right_half(z, |z| {
         let (below, above) = sides(z);
-        (below.sqrt() * above.sqrt()).inverse()
+        let (below, above) = (below.sqrt(), above.sqrt());
+        let re = below.re * above.re + (below.im * above.im).abs();
+        let im = below.re * above.im + below.im * above.re;
+        complex(re, part_of_root(-z.re, z.im, re, im)).inverse()
     })
 }
 
@@ -118,8 +152,11 @@ pub fn complex_asinh(z: Complex) -> Complex {
     complex_asin(z.mul_i())
 }
 
-/// 1/(√(z - 1) √(z + 1)), whose cut is that of arcosh.
+/// 1/(√(z - 1) √(z + 1)), whose cut is that of arcosh, likewise.
 pub fn complex_acosh(z: Complex) -> Complex {
     let (below, above) = (complex(z.re - 1.0, z.im), complex(z.re + 1.0, z.im));
-    (below.sqrt() * above.sqrt()).inverse()
+    let (below, above) = (below.sqrt(), above.sqrt());
+    let re = below.re * above.re - below.im * above.im;
+    let im = below.re * above.im + below.im * above.re;
+    complex(part_of_root(z.re, z.im, im, re), im).inverse()
 }

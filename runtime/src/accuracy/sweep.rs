@@ -103,7 +103,7 @@ pub fn points(subject: &Subject, format: Format, each: usize) -> Result<Vec<Poin
                     .collect();
             }
             let args: Vec<f64> = first.args.iter().map(|_| number(spread)).collect();
-            if subject.word == "gamma" && args.iter().any(|x| x.abs() > GAMMA_FAR) {
+            if is_beyond(subject, &args, &values) {
                 continue;
             }
             // here the reference is off by more than its bound: |w log z| ulps
@@ -118,6 +118,18 @@ pub fn points(subject: &Subject, format: Format, each: usize) -> Result<Vec<Poin
         }
     }
     Ok(points)
+}
+
+/// Whether arguments are where nothing is promised (docs/numerics.md, known limits).
+fn is_beyond(subject: &Subject, args: &[f64], params: &[f64]) -> bool {
+    match (subject.word, args, params) {
+        ("gamma", args, _) => args.iter().any(|x| x.abs() > GAMMA_FAR),
+        // a c - b d overflows in a term and not as a whole
+        ("mul", &[a, b], &[c, d]) => a.hypot(b) * c.hypot(d) > OVERFLOW,
+        // a remainder may be subnormal, and counts as 0
+        ("mod", &[_, b], _) => b.abs() < 1e-30 && b != 0.0,
+        _ => false,
+    }
 }
 
 /// The signs of numbers that vanish are left to the tables.
