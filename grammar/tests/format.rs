@@ -4,6 +4,7 @@ mod support;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use pullback_grammar::ast::MAX_SOURCE_BYTES;
 use pullback_grammar::token::comments;
 use pullback_grammar::{format, print, same_tree};
 use support::generate::{Random, program as random_program, with_comments};
@@ -46,6 +47,20 @@ fn canonical_texts() {
 fn texts_with_errors_have_no_format() {
     assert_eq!(format("f(x", &is_function), None);
     assert_eq!(format("", &is_function), None);
+}
+
+#[test]
+fn texts_that_grow_beyond_the_bound() {
+    let note = |text: &str, length: usize| format!("{text}//{}", "n".repeat(length));
+    for (text, expected) in [
+        ("f(x)=x+PI", "f(x) = x + pi"),
+        ("f(x)=x^2+1", "f(x) = x^2 + 1"),
+    ] {
+        let length = MAX_SOURCE_BYTES - text.len() - 2;
+        let expected = note(&format!("{expected}  "), length) + "\n";
+        let formatted = format(&note(text, length), &is_function);
+        assert!(formatted == Some(expected), "{text}");
+    }
 }
 
 #[test]

@@ -48,6 +48,35 @@ fn formatting_keeps_every_number() {
     }
 }
 
+/// A line of the format is no longer than this.
+const WIDTH: usize = 100;
+
+#[test]
+fn formatting_keeps_diagnostics() {
+    let long = "x_of_the_first_of_all_points(x) * y_of_the_first_of_all_points(y)";
+    let broken = format!("f(x, y) = {long} * {long} / 2 x where a = 1");
+    for text in [
+        // numbers too small, in ours and in another notation
+        "f(x) = 1e-999 + x",
+        "return 1e-999 + .0e5 + x",
+        // divisions whose spaces say how they are read, on one line and on several
+        "f(x, y) = y * 1/2 x",
+        "f(x, y) = y * 1 / 2 x",
+        "f(x, y) = 1/2(x) y",
+        &broken.replace(" / ", "/"),
+        &broken,
+        // a name that one token stands for twice
+        "float f(float x) { float s = x; s += unknown; return s; }",
+        "float f(float x) { unknown += x; return unknown; }",
+        "\\phi x",
+    ] {
+        let held = formatting::tree(text).and_then(|()| formatting::evaluation(text));
+        held.unwrap_or_else(|problem| panic!("{problem}\n---\n{text}"));
+        let formatted = format(text, &is_builtin_function).expect("no syntax errors");
+        assert!(formatted.lines().all(|line| line.chars().count() <= WIDTH));
+    }
+}
+
 #[test]
 fn formatting_keeps_what_random_programs_mean() {
     let corpus = all_programs();

@@ -39,6 +39,10 @@ pub fn format(text: &str, is_function: &dyn Fn(&str) -> bool) -> Option<String> 
     // What is written anew is read again with the whole file around it: its definitions say what calls are.
     let ours = write(text, &reading);
     let reading = read(&ours, is_function);
+    if reading.parsed.has_errors() {
+        // it has grown beyond what is read
+        return Some(ours);
+    }
     Some(write(&ours, &reading))
 }
 
