@@ -19,8 +19,7 @@ const LEAST_OF_PAIRS: f64 = (1u64 << 48) as f64 * f32::MIN_POSITIVE as f64;
 /// What is taken from the bounds of one format on one adapter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Allowance {
-    /// Units that are added to a bound: twice what a quotient and a root are off by beyond a half, for functions that have
-    /// two of them one after the other.
+    /// Units that are added to a bound, for functions that have a quotient and a root one after the other.
     pub units: f64,
     /// Whether subnormal numbers are lost.
     pub flushes: bool,
@@ -37,9 +36,8 @@ impl Allowance {
         let Some(arithmetic) = arithmetic else {
             return Self::default();
         };
-        // a quotient of pairs is corrected by its rest, whatever rounding it began with
         let units = match format {
-            Format::Pair => 0.0,
+            Format::Pair => excess_of_pairs(arithmetic),
             Format::Single | Format::Double => excess(arithmetic),
         };
         let special = &arithmetic.special;
@@ -90,7 +88,7 @@ impl Allowance {
         let mut parts = Vec::new();
         if self.units > 0.0 {
             parts.push(format!(
-                "bounds are {:.1} ulp wider, for its quotients and roots are not rounded correctly",
+                "bounds are {:.1} units wider, for its quotients and roots are not rounded correctly",
                 self.units
             ));
         }
@@ -112,6 +110,17 @@ fn excess(found: &Arithmetic) -> f64 {
     }
     let beyond = |ulps: f64| (ulps - 0.5).max(0.0);
     2.0 * (beyond(rounding.quotient) + beyond(rounding.root))
+}
+
+/// A quotient of pairs is that of the upper words and a quotient of its rest: off by the product of what both are off by,
+/// in units of 2⁻⁴⁸ four times the square of the ulps; a root likewise.
+fn excess_of_pairs(found: &Arithmetic) -> f64 {
+    let rounding = &found.rounding;
+    if rounding.is_correct() {
+        return 0.0;
+    }
+    let beyond = |ulps: f64| 4.0 * (ulps * ulps - 0.25).max(0.0);
+    beyond(rounding.quotient) + beyond(rounding.root)
 }
 
 /// Whether no argument is subnormal or has a subnormal reciprocal, and no result is too large for a divisor.
@@ -170,7 +179,7 @@ mod tests {
         );
         assert!(single.flushes);
         let pair = Allowance::of(&found, Format::Pair);
-        assert_eq!(pair.units, 0.0);
+        assert_eq!(pair.units, 15.0 + 3.0);
         assert!(pair.flushes);
         assert_eq!(Allowance::of(&found, Format::Double), Allowance::default());
     }
