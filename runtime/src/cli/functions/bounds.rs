@@ -19,7 +19,10 @@ pub(super) fn write(output: &mut dyn Write, entries: &[Entry]) -> io::Result<()>
          float32 (accurate), 2⁻⁴⁸ of the result (extended) and ulp of float64 (double), of each component; `norm`: of the \
          greatest component, `unit`: of 1 where the result is smaller.\n"
     )?;
-    let all: Vec<&Bounds> = entries.iter().flat_map(|e| e.bounds.iter().copied()).collect();
+    let all: Vec<&Bounds> = entries
+        .iter()
+        .flat_map(|e| e.bounds.iter().copied())
+        .collect();
     let name = |bounds: &Bounds| match bounds.complex {
         true => format!("{} (complex)", bounds.word),
         false => bounds.word.to_owned(),
