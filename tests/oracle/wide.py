@@ -206,7 +206,7 @@ def couples(name, rng):
         x, y = pair(rng, 1), pair(rng, 1)
         if name == "pow":  # close to the unit circle, to large powers; beside the cut; real exponents
             z = (on_circle, beside_cut, right)[k % 3](rng)
-            w = (widened(rng, rng.uniform(-300, 300)), widened(rng, rng.uniform(-20, 20))) if k % 3 == 0 else (pair(rng, 1), 0.0)
+            w = (widened(rng, rng.uniform(-240, 240)), widened(rng, rng.uniform(-20, 20))) if k % 3 == 0 else (pair(rng, 1), 0.0)
             yield z, w
         else:  # a part of the result cancels: to w = ±i z̄ (1 + 2^-k) and ±z̄ in products, without the bar in quotients
             u, v = ((y, x), (x, -y))[k % 2]

@@ -215,8 +215,8 @@ fn judge(
 ) -> Errors {
     let mut errors = Errors::default();
     let of_sweep = match swept {
-        Some(bound) => metric.max(bound.metric),
-        None => metric,
+        Some(bound) if format == Format::Pair => metric.max(bound.metric),
+        _ => metric,
     };
     for (case, result) in subject.cases.iter().zip(results) {
         let got = &result[from..];
