@@ -234,7 +234,7 @@ fn powers_and_exponentials_need_no_range() {
     let log_derivative = trap(
         "f(z: complex) = diff(z^-8, z)/z^-8",
         &[1e-5, 0.0],
-        &[-800_000.020_209_700_4, 0.0],
+        &[-800_000.020_209_700_5, 0.0],
         2.1,
     );
     // z⁻⁸ is 1e40 and more, and its derivative 1e46
@@ -298,7 +298,7 @@ fn wide_exponents_need_no_rewrite() {
         trap(
             "f(z: complex) = diff(z^-8, z)/z^-8",
             &[1e-5, 0.0],
-            &[-800_000.020_209_700_4, NOT_STATED],
+            &[-800_000.020_209_700_5, NOT_STATED],
             12.0,
         ),
         trap(
@@ -465,7 +465,7 @@ fn inverse_hyperbolic_cosines_stay_on_their_branch() {
         trap(
             "f(z: complex) = acosh(z)",
             &[-2.0, 0.0],
-            &[1.316_957_896_924_816_7, std::f64::consts::PI],
+            &[1.316_957_896_924_816_8, std::f64::consts::PI],
             2.4,
         ),
         trap(
