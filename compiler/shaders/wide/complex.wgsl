@@ -282,9 +282,10 @@ fn long_log2() -> Long {
     return long_lit(0.6931472, -1.9046542e-09, -8.783184e-17, 3.0618407e-24, -2.510717e-33);
 }
 
-/// A constant as the sum of five f32.
+/// A constant as the sum of five f32, each the nearest to what is left, so that the first two are one f64, too. Nothing is
+/// summed exactly here: what is made of constants alone cannot be hidden, and shader compilers simplify it.
 fn long_lit(a: f32, b: f32, c: f32, d: f32, e: f32) -> Long {
-    return long_sum(lit(a, b, 0.0), lit(c, d, e));
+    return Long(lit(a, b, 0.0), lit(c, d, e));
 }
 
 fn long_neg(a: Long) -> Long {
