@@ -11,9 +11,8 @@ use crate::capabilities::{Arithmetic, Capabilities};
 
 /// The reciprocal of a divisor above this is subnormal.
 const GREATEST_DIVISOR: f64 = (1u128 << 126) as f64;
-/// Below this, results are made of numbers that may be subnormal: those of single precision up to four times the least
-/// normal number, those of pairs so that their lower halves, of another 24 bits and as many for products, are above it.
-const LEAST_SINGLE: f64 = 4.0 * f32::MIN_POSITIVE as f64;
+/// Below this, what matters to a result may be subnormal: a term that is 24 or 48 bits smaller.
+const LEAST_SINGLE: f64 = (1u64 << 24) as f64 * f32::MIN_POSITIVE as f64;
 const LEAST_OF_PAIRS: f64 = (1u64 << 48) as f64 * f32::MIN_POSITIVE as f64;
 
 /// What is taken from the bounds of one format on one adapter.
@@ -71,10 +70,10 @@ impl Allowance {
             Format::Pair => LEAST_OF_PAIRS,
             Format::Single | Format::Double => LEAST_SINGLE,
         };
-        subject.cases.retain(|case| is_normal(case, least));
+        subject.cases.retain(is_normal);
         for case in &mut subject.cases {
             for number in case.value.iter_mut().chain(&mut case.derivative) {
-                if is_small(number, least) {
+                if !is_plain(number, least) {
                     *number = Expected::Unstated;
                 }
             }
@@ -124,7 +123,8 @@ fn excess_of_pairs(found: &Arithmetic) -> f64 {
 }
 
 /// Whether no argument is subnormal or has a subnormal reciprocal, and no result is too large for a divisor.
-fn is_normal(case: &Case, least: f64) -> bool {
+fn is_normal(case: &Case) -> bool {
+    let least = f64::from(f32::MIN_POSITIVE);
     let plain =
         |x: f64| x == 0.0 || !x.is_finite() || (least..=GREATEST_DIVISOR).contains(&x.abs());
     let small = |e: &Expected| match e {
@@ -135,8 +135,14 @@ fn is_normal(case: &Case, least: f64) -> bool {
     arguments.copied().all(plain) && case.value.iter().all(small)
 }
 
-fn is_small(expected: &Expected, least: f64) -> bool {
-    matches!(expected, Expected::Number { value, .. } if *value != 0.0 && value.abs() < least)
+/// Whether nothing that a result of this size is made of need be subnormal or have a subnormal reciprocal.
+fn is_plain(expected: &Expected, least: f64) -> bool {
+    match expected {
+        Expected::Number { value, .. } if *value != 0.0 && value.is_finite() => {
+            (least..=GREATEST_DIVISOR).contains(&value.abs())
+        }
+        _ => true,
+    }
 }
 
 #[cfg(test)]
