@@ -135,6 +135,11 @@ fn with_sign(a: real, s: real) -> real {
     return bitcast<vec2f>(bitcast<vec2u>(a) ^ vec2u((bitcast<u32>(a.x) ^ bitcast<u32>(s.x)) & 0x80000000u));
 }
 
+/// Whether a sum is a zero, with the sign that the sum of the upper words has: errors of 0 lose it.
+fn pair_vanishes(sum: f32, upper: f32) -> bool {
+    return sum == 0.0 && upper == 0.0;
+}
+
 /// a + b. Error: 3 u² (JMP algorithm 6), also where the terms cancel.
 fn real_add(a: real, b: real) -> real {
     let zero = hidden_zero_of(a.x, b.x);
@@ -142,7 +147,7 @@ fn real_add(a: real, b: real) -> real {
     let t = two_sum(a.y, b.y, zero);
     let v = quick_two_sum(s.x, opaque(s.y + t.x, zero), zero);
     let r = quick_two_sum(v.x, opaque(t.y + v.y, zero), zero);
-    return select(r, vec2f(s.x, 0.0), pair_is_unbounded(s.x));
+    return select(r, vec2f(s.x, 0.0), pair_is_unbounded(s.x) || pair_vanishes(r.x, s.x));
 }
 
 /// a - b. Error: 3 u².
@@ -155,7 +160,7 @@ fn add32(a: real, b: f32) -> real {
     let zero = hidden_zero_of(a.x, b);
     let s = two_sum(a.x, b, zero);
     let r = quick_two_sum(s.x, opaque(s.y + a.y, zero), zero);
-    return select(r, vec2f(s.x, 0.0), pair_is_unbounded(s.x));
+    return select(r, vec2f(s.x, 0.0), pair_is_unbounded(s.x) || pair_vanishes(r.x, s.x));
 }
 
 /// a b. Error: 5 u² (JMP algorithm 11).
