@@ -175,7 +175,8 @@ impl Pass {
         let mut sides: SmallVec<[Id; 4]> = SmallVec::new();
         for (monomial, value) in &below.terms {
             match monomial.as_slice() {
-                [] if *value < LARGE => {}
+                // a difference may vanish, and has forms that are better where it does
+                [] if *value > 0.0 && *value < LARGE => {}
                 [(atom, 2)] if *value > 0.0 && is_real(g, *atom) => sides.push(*atom),
                 _ => return None,
             }

@@ -238,7 +238,7 @@ rules! {
         "laws of exponents";
     SquareQuotient "square-quotient", true, "real":
         "b·a²/(a² + c) = b·(a·s)²/((a·s)² + c·s²), b/(a² + c) = (b·s)/((a·s)² + c·s²)·s",
-        "a and c real, b of either kind; c below 2⁶⁰, sums of several squares, too; s = 2⁻⁶⁴ where |a| > 2⁶⁰, and 2⁶⁴ where |a| < 2⁻⁶⁰ if c is 0, else 1: multiplication by it is exact. Holds to |a| = 2⁵⁷⁵; beyond, and for infinite a, NaN as written. The points of the Riemann sphere are such quotients",
+        "a and c real, b of either kind; c between 0 and 2⁶⁰, sums of several squares, too; s = 2⁻⁶⁴ where |a| > 2⁶⁰, and 2⁶⁴ where |a| < 2⁻⁶⁰ if c is 0, else 1: multiplication by it is exact. Holds to |a| = 2⁵⁷⁵; beyond, and for infinite a, NaN as written. The points of the Riemann sphere are such quotients",
         "exact scaling; W. Kahan 1987";
     Reciprocal "reciprocal-wave", true, "real and complex":
         "c/cosh a = c·sech a, c/sinh a = c·csch a, of complex numbers c/cos a = c·sec a, c/sin a = c·csc a",

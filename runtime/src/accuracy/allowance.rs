@@ -47,7 +47,7 @@ impl Allowance {
         }
     }
 
-    /// A bound with what is added.
+    /// A bound with what is added, rounded up to a tenth.
     #[must_use]
     pub fn raised(self, bound: Bound) -> Bound {
         // what is exact has no quotient
@@ -55,7 +55,7 @@ impl Allowance {
             return bound;
         }
         Bound {
-            units: bound.units + self.units,
+            units: ((bound.units + self.units) * 10.0).ceil() / 10.0,
             ..bound
         }
     }
