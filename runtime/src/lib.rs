@@ -43,5 +43,6 @@ pub use device::{AdapterChoice, AdapterSummary, Gpu};
 pub use error::Error;
 pub use evaluate::GpuEvaluator;
 pub use image_file::Metadata;
+pub use pool::STACK;
 pub use render::{Frame, Pipeline, Renderer, RowSink, Size, View};
 pub use scale::fill_in_scale;

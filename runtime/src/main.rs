@@ -7,9 +7,6 @@ use std::process::ExitCode;
 
 use cli::{Arguments, Console};
 
-/// Enough for the deepest formula that the compiler accepts, in an unoptimised build too.
-const STACK: usize = 256 << 20;
-
 fn main() -> ExitCode {
     quieten_loader();
     let arguments = Arguments::read();
@@ -22,7 +19,7 @@ fn main() -> ExitCode {
     // The library turns the panics of drivers into errors; those must not print.
     std::panic::set_hook(Box::new(|_| {}));
     let worker = std::thread::Builder::new()
-        .stack_size(STACK)
+        .stack_size(pullback_runtime::STACK)
         .spawn(move || cli::run(arguments, &console));
     let code = match worker.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,

@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
-/// Enough for the deepest formula that the compiler accepts, in an unoptimised build too.
-const STACK: usize = 256 << 20;
+/// What a thread that compiles needs: enough for the deepest formula that the compiler accepts, in an unoptimised build too.
+pub const STACK: usize = 256 << 20;
 
 /// Does every task once, in their order as workers become free, each worker on a thread of its own. Gives the results in
 /// the order of the tasks; none for a task whose thread died. `done` hears of every finished task.
