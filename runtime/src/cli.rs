@@ -3,6 +3,7 @@
 mod accuracy;
 mod check;
 mod console;
+mod diff;
 mod doctor;
 mod emit;
 mod eval;
@@ -71,6 +72,9 @@ enum Command {
     /// Evaluate a formula at points
     #[command(after_help = EXIT_CODES)]
     Eval(eval::EvalArguments),
+    /// Compare two pictures, in numbers and to the eye
+    #[command(after_help = diff::EXIT_CODES)]
+    Diff(diff::DiffArguments),
     /// Say what this machine offers and what is missing
     #[command(after_help = EXIT_CODES)]
     Doctor(doctor::DoctorArguments),
@@ -277,6 +281,7 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
         Command::Fmt(arguments) => fmt::run(&arguments, console),
         Command::Explain(arguments) => explain::run(&arguments, console),
         Command::Eval(arguments) => eval::run(&arguments, console),
+        Command::Diff(arguments) => diff::run(&arguments, console),
         Command::Doctor(arguments) => doctor::run(&arguments, console),
         Command::Accuracy(arguments) => accuracy::run(&arguments, console),
         Command::Functions(arguments) => functions::run(&arguments),

@@ -22,6 +22,7 @@ pub mod auto;
 pub mod capabilities;
 pub mod decorate;
 pub mod device;
+pub mod difference;
 pub mod error;
 pub mod evaluate;
 pub mod image_file;

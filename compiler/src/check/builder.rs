@@ -169,6 +169,9 @@ impl<'a> Builder<'a> {
         self.depth += 1;
         let value = self.nested(id);
         self.depth -= 1;
+        if self.source == Source::Program {
+            self.graph.cover(self.file.exprs.span(id));
+        }
         value
     }
 
@@ -233,6 +236,9 @@ impl<'a> Builder<'a> {
             let right = self.expr(rhs);
             let whole = file.exprs.span(node);
             value = self.binary(op, (&value, span), (&right, file.exprs.span(rhs)), whole);
+            if self.source == Source::Program {
+                self.graph.cover(whole);
+            }
             span = whole;
         }
         value

@@ -65,7 +65,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     let picture = &source.program.pictures()[index];
     let (params, mut settings) =
         overrides::for_picture(&arguments.settings.set, &source.program, picture)?;
-    let view = view(arguments, picture, &settings)?;
+    let view = view(arguments.center, arguments.height, picture, &settings)?;
     fill_in_scale(
         &mut settings,
         picture,
@@ -135,13 +135,14 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
 }
 
 /// What is seen: of a plane by the options, then by the settings; scenes of space have a camera in their settings.
-fn view(
-    arguments: &RenderArguments,
+pub(super) fn view(
+    wanted_center: Option<[f64; 2]>,
+    wanted_height: Option<f64>,
     picture: &Picture,
     settings: &[SettingValue],
 ) -> Result<View, Failure> {
     if picture.scene.space == Space::Space {
-        if arguments.center.is_some() || arguments.height.is_some() {
+        if wanted_center.is_some() || wanted_height.is_some() {
             return Err(Failure::usage_hint(
                 format!(
                     "scene `{}` has no plane to be looked at",
@@ -164,13 +165,13 @@ fn view(
     let center = setting("center").unwrap_or_default();
     let height = setting("height").map_or(2.0, |value| value.x);
     Ok(View {
-        center: arguments.center.unwrap_or([center.x, center.y]),
-        height: arguments.height.unwrap_or(height),
+        center: wanted_center.unwrap_or([center.x, center.y]),
+        height: wanted_height.unwrap_or(height),
     })
 }
 
 /// The tier that `auto` takes; says which and why.
-fn chosen(
+pub(super) fn chosen(
     gpu: &Gpu,
     scenery: &Scenery,
     source: &Source,
@@ -271,7 +272,7 @@ pub(super) fn name(path: &Path) -> String {
 }
 
 /// `WxH`
-fn size(text: &str) -> Result<Size, String> {
+pub(super) fn size(text: &str) -> Result<Size, String> {
     let side = |part: &str| part.trim().parse::<u32>().ok();
     let (width, height) = text
         .split_once(['x', 'X', '×'])
@@ -284,14 +285,14 @@ fn size(text: &str) -> Result<Size, String> {
 }
 
 /// `x,y`
-fn point(text: &str) -> Result<[f64; 2], String> {
+pub(super) fn point(text: &str) -> Result<[f64; 2], String> {
     text.split_once(',')
         .and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]))
         .filter(|point: &[f64; 2]| point.iter().all(|c| c.is_finite()))
         .ok_or_else(|| "write X,Y, such as -0.5,0".into())
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     text.parse()
         .ok()
         .filter(|&value: &f64| value > 0.0 && value.is_finite())
