@@ -13,11 +13,13 @@ mod fmt;
 mod functions;
 mod json;
 mod overrides;
+mod probe;
 mod progress;
 mod render;
 mod scenes;
 mod source;
 mod spelling;
+mod subject;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -75,6 +77,9 @@ enum Command {
     /// Compare two pictures, in numbers and to the eye
     #[command(after_help = diff::EXIT_CODES)]
     Diff(diff::DiffArguments),
+    /// Show what is computed on the way to a pixel, and where machines part
+    #[command(after_help = EXIT_CODES)]
+    Probe(probe::ProbeArguments),
     /// Say what this machine offers and what is missing
     #[command(after_help = EXIT_CODES)]
     Doctor(doctor::DoctorArguments),
@@ -282,6 +287,7 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
         Command::Explain(arguments) => explain::run(&arguments, console),
         Command::Eval(arguments) => eval::run(&arguments, console),
         Command::Diff(arguments) => diff::run(&arguments, console),
+        Command::Probe(arguments) => probe::run(&arguments, console),
         Command::Doctor(arguments) => doctor::run(&arguments, console),
         Command::Accuracy(arguments) => accuracy::run(&arguments, console),
         Command::Functions(arguments) => functions::run(&arguments),

@@ -31,6 +31,7 @@ pub mod probe;
 pub mod render;
 pub mod rows;
 pub mod shader;
+pub mod trace;
 
 mod buffers;
 mod pool;

@@ -377,7 +377,7 @@ fn uniform_layout(visibility: wgpu::ShaderStages) -> [wgpu::BindGroupLayoutEntry
     })
 }
 
-fn view_uniform(frame: &Frame, tile: Tile) -> ViewUniform {
+pub(crate) fn view_uniform(frame: &Frame, tile: Tile) -> ViewUniform {
     ViewUniform {
         center: frame.view.center.map(|c| c as f32),
         size: [frame.size.width as f32, frame.size.height as f32],

@@ -140,6 +140,8 @@ impl<'a> Builder<'a> {
 
     /// Defines a name for what is built next, such as an input of a formula.
     pub fn define(&mut self, name: &'a str, value: Value) {
+        // an argument is first written where it is used
+        self.graph.cover(Span::default());
         self.frame.parameters.push((name, value.clone()));
         self.scope.push(name, value);
     }
@@ -170,7 +172,11 @@ impl<'a> Builder<'a> {
         let value = self.nested(id);
         self.depth -= 1;
         if self.source == Source::Program {
-            self.graph.cover(self.file.exprs.span(id));
+            let span = self.file.exprs.span(id);
+            self.graph.cover(span);
+            if let Value::Scalar(node) = value {
+                self.graph.place(node, span);
+            }
         }
         value
     }

@@ -202,6 +202,15 @@ impl Graph {
         self.spans.resize(self.nodes.len(), span);
     }
 
+    /// Says where in the text a node comes from, where that is not known yet.
+    pub fn place(&mut self, id: Id, span: Span) {
+        if let Some(known) = self.spans.get_mut(id.index())
+            && *known == Span::default()
+        {
+            *known = span;
+        }
+    }
+
     /// The part of the text that a node was written as, or was derived from; empty where that is not known.
     #[must_use]
     pub fn span(&self, id: Id) -> Span {

@@ -14,7 +14,7 @@ use pullback_runtime::{Metadata, Size};
 
 use super::failure::Failure;
 use super::progress::Progress;
-use super::render::{self, name, point, positive, size};
+use super::render::{name, point, positive, size};
 use super::{Console, Rules, Settings, Which};
 use drawing::Side;
 use report::Report;

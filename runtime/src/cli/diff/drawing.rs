@@ -3,16 +3,14 @@
 use std::str::FromStr;
 
 use clap::ValueEnum;
-use pullback_compiler::SettingValue;
-use pullback_runtime::auto::Scenery;
 use pullback_runtime::difference::Bitmap;
-use pullback_runtime::{AdapterChoice, Frame, Pipeline, Renderer, fill_in_scale};
+use pullback_runtime::{AdapterChoice, Renderer};
 
-use super::{DiffArguments, Named, render};
+use super::{DiffArguments, Named};
 use crate::cli::failure::Failure;
 use crate::cli::progress::{Counted, Progress};
-use crate::cli::source::Source;
-use crate::cli::{Console, Device, Input, Numbers, Tier, overrides, spelling};
+use crate::cli::subject::{Subject, Wanted};
+use crate::cli::{Console, Device, Input, Numbers, Tier, spelling};
 
 /// `gpu:accurate`: what draws a picture.
 #[derive(Clone, Debug)]
@@ -50,53 +48,27 @@ fn tier(word: &str) -> Result<Tier, String> {
     })
 }
 
-/// A program that is to be drawn.
-struct Subject<'a> {
-    source: Source,
-    index: usize,
-    settings: Vec<SettingValue>,
-    frame: Frame<'a>,
-}
-
 /// The program's picture as each side draws it.
 pub(super) fn both(arguments: &DiffArguments, console: &Console) -> Result<[Named; 2], Failure> {
-    let input = Input {
-        input: arguments.first.clone(),
-    };
-    let source = Source::open(&input, console)?.with_rewrites(arguments.rules);
-    let index = source.picture(arguments.which, console)?;
-    let picture = &source.program.pictures()[index];
-    let (params, mut settings) =
-        overrides::for_picture(&arguments.settings.set, &source.program, picture)?;
     let framing = &arguments.framing;
-    let view = render::view(framing.center, framing.height, picture, &settings)?;
-    let time = arguments.settings.time;
-    fill_in_scale(&mut settings, picture, &view, framing.size, &params, time);
-    let subject = Subject {
-        source,
-        index,
-        settings,
-        frame: Frame {
-            view,
-            params: &params,
-            settings: &[],
-            size: framing.size,
-            samples: framing.samples,
-            time,
-            pipeline: Pipeline::Compute,
+    let wanted = Wanted {
+        input: &Input {
+            input: arguments.first.clone(),
         },
+        which: arguments.which,
+        rules: arguments.rules,
+        settings: &arguments.settings,
+        center: framing.center,
+        height: framing.height,
+        size: framing.size,
+        samples: framing.samples,
     };
+    let subject = Subject::open(&wanted, console)?;
     let a = drawn(&subject, &arguments.a, console)?;
     Ok([a, drawn(&subject, &arguments.b, console)?])
 }
 
 fn drawn(subject: &Subject, side: &Side, console: &Console) -> Result<Named, Failure> {
-    let Subject {
-        source,
-        index,
-        settings,
-        frame,
-    } = subject;
     let device = Device {
         adapter: side.adapter.clone(),
     };
@@ -104,25 +76,10 @@ fn drawn(subject: &Subject, side: &Side, console: &Console) -> Result<Named, Fai
     let numbers = Numbers {
         precision: side.precision,
     };
-    let precision = match numbers.wanted(settings) {
-        Some(precision) => precision,
-        None => {
-            let scenery = Scenery {
-                program: &source.program,
-                picture: *index,
-                settings,
-                frame,
-            };
-            render::chosen(&gpu, &scenery, source, console)?
-        }
-    };
-    let tier = crate::cli::tier(&gpu, precision)?;
-    let scene = source.expect(source.program.scene_module(*index, tier), console)?;
-    let bytes = scene.pack_settings(settings);
-    let frame = Frame {
-        settings: &bytes,
-        ..frame.clone()
-    };
+    let precision = subject.precision(numbers, &gpu, console)?;
+    let scene = subject.scene(crate::cli::tier(&gpu, precision)?, console)?;
+    let bytes = scene.pack_settings(&subject.settings);
+    let frame = subject.frame(&bytes);
     let mut rows: Vec<u8> = Vec::new();
     let mut progress = Progress::new(console);
     let mut renderer = Renderer::new(&gpu, &scene)?;
