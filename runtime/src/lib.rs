@@ -24,6 +24,7 @@ pub mod decorate;
 pub mod device;
 pub mod error;
 pub mod evaluate;
+pub mod executor;
 pub mod image_file;
 pub mod kernel;
 pub mod probe;
