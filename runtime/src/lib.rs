@@ -25,6 +25,7 @@ pub mod device;
 pub mod difference;
 pub mod error;
 pub mod evaluate;
+pub mod executor;
 pub mod image_file;
 pub mod kernel;
 pub mod probe;

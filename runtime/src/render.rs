@@ -79,6 +79,43 @@ impl Frame<'_> {
         self.view.height / f64::from(self.size.height)
     }
 
+    /// Says what is wrong with the frame, whatever the scene.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a frame outside of the limits.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let invalid = |reason: String| Err(Error::Invalid { reason });
+        let Size { width, height } = self.size;
+        if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
+            return invalid(format!(
+                "a picture of {width}x{height} pixels: each side must be 1 to {MAX_SIDE}"
+            ));
+        }
+        if self.samples == 0 || self.samples > MAX_SAMPLES {
+            return invalid(format!(
+                "{} samples per axis: must be 1 to {MAX_SAMPLES}",
+                self.samples
+            ));
+        }
+        if self.params.len() > MAX_PARAMS {
+            return invalid(format!(
+                "{} parameters: at most {MAX_PARAMS}",
+                self.params.len()
+            ));
+        }
+        let pixel = self.pixel() as f32;
+        if !(pixel.is_normal() && pixel > 0.0) {
+            return invalid(format!(
+                "a view of height {}: must be a positive number within single precision",
+                self.view.height
+            ));
+        }
+        if !self.view.center.iter().all(|c| (*c as f32).is_finite()) {
+            return invalid("the centre of the view must be finite in single precision".into());
+        }
+        Ok(())
+    }
+
     /// Whether a format tells the points of neighbouring pixels apart, everywhere in the view.
     #[must_use]
     pub fn is_resolved(&self, format: Format) -> bool {
@@ -218,43 +255,14 @@ impl Renderer {
     }
 
     fn check(&self, frame: &Frame) -> Result<(), Error> {
-        let invalid = |reason: String| Err(Error::Invalid { reason });
-        let Size { width, height } = frame.size;
-        if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
-            return invalid(format!(
-                "a picture of {width}x{height} pixels: each side must be 1 to {MAX_SIDE}"
-            ));
-        }
-        if frame.samples == 0 || frame.samples > MAX_SAMPLES {
-            return invalid(format!(
-                "{} samples per axis: must be 1 to {MAX_SAMPLES}",
-                frame.samples
-            ));
-        }
-        if frame.params.len() > MAX_PARAMS {
-            return invalid(format!(
-                "{} parameters: at most {MAX_PARAMS}",
-                frame.params.len()
-            ));
-        }
-        if frame.settings.len() as u64 > self.uniforms.settings.size()
-            || !frame.settings.len().is_multiple_of(4)
-        {
-            return invalid(format!(
-                "{} bytes of settings for a scene that has {}",
-                frame.settings.len(),
+        frame.check()?;
+        let settings = frame.settings.len();
+        if settings as u64 > self.uniforms.settings.size() || !settings.is_multiple_of(4) {
+            let reason = format!(
+                "{settings} bytes of settings for a scene that has {}",
                 self.uniforms.settings.size()
-            ));
-        }
-        let pixel = (frame.view.height / f64::from(height)) as f32;
-        if !(pixel.is_normal() && pixel > 0.0) {
-            return invalid(format!(
-                "a view of height {}: must be a positive number within single precision",
-                frame.view.height
-            ));
-        }
-        if !frame.view.center.iter().all(|c| (*c as f32).is_finite()) {
-            return invalid("the centre of the view must be finite in single precision".into());
+            );
+            return Err(Error::Invalid { reason });
         }
         Ok(())
     }
