@@ -4,21 +4,20 @@ mod findings;
 mod json;
 mod nan;
 mod number;
+mod place;
 mod table;
 
 use clap::{ArgGroup, Args, ValueEnum};
-use pullback_compiler::What;
-use pullback_compiler::scene::Space;
-use pullback_runtime::evaluate::Surroundings;
-use pullback_runtime::render::MAX_SAMPLES;
-use pullback_runtime::trace::{self, GpuTracer, Inputs, Recorders, Trace, Traced};
-use pullback_runtime::{Gpu, Size};
+use pullback_runtime::executor::Arithmetic;
+use pullback_runtime::trace::Trace;
+use pullback_runtime::{AdapterChoice, Error, Gpu, Size};
 
 use super::failure::Failure;
 use super::render::{point, positive, size};
 use super::subject::{Subject, Wanted};
 use super::{Console, Device, Input, Numbers, Rules, Settings, Which};
 use findings::Findings;
+use place::Place;
 
 /// Arguments of `pullback probe`.
 #[derive(Debug, Args)]
@@ -39,10 +38,6 @@ pub(super) struct ProbeArguments {
     /// Width and height of the picture in pixels
     #[arg(long, default_value = "1200x900", value_name = "WxH", value_parser = size)]
     size: Size,
-    /// Supersamples per axis of a pixel
-    #[arg(long, default_value_t = 1, value_name = "N",
-          value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
-    samples: u32,
     /// World coordinates of the centre
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     center: Option<[f64; 2]>,
@@ -53,6 +48,10 @@ pub(super) struct ProbeArguments {
     settings: Settings,
     #[command(flatten)]
     which: Which,
+    /// Which machines compute: the graphics adapter, the processor in exact binary32, and in f64
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "NAME,…",
+          default_values_t = [Machine::Gpu, Machine::Ieee32, Machine::Reference])]
+    on: Vec<Machine>,
     #[command(flatten)]
     device: Device,
     #[command(flatten)]
@@ -81,9 +80,32 @@ enum Format {
     Json,
 }
 
+/// Who computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Machine {
+    /// The graphics adapter
+    Gpu,
+    /// The processor, exactly as IEEE 754 has single precision
+    Ieee32,
+    /// The processor, in double precision
+    Reference,
+}
+
+impl Machine {
+    /// All of them, in the order in which each is compared with the next.
+    const ALL: [Self; 3] = [Self::Gpu, Self::Ieee32, Self::Reference];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Gpu => "gpu",
+            Self::Ieee32 => Arithmetic::Ieee32.name(),
+            Self::Reference => Arithmetic::Reference.name(),
+        }
+    }
+}
+
 /// What one machine computed.
 struct Column {
-    /// `gpu`, `ieee32` or `reference`.
     name: &'static str,
     trace: Trace,
 }
@@ -98,34 +120,36 @@ pub(super) fn run(arguments: &ProbeArguments, console: &Console) -> Result<(), F
         center: arguments.center,
         height: arguments.height,
         size: arguments.size,
-        samples: arguments.samples,
+        samples: 1,
     };
     let subject = Subject::open(&wanted, console)?;
-    let gpu = super::open(&arguments.device, console)?;
     if arguments.nan {
+        let gpu = super::open(&arguments.device, console)?;
         return nan::run(arguments, &subject, &gpu, console);
     }
-    let precision = subject.precision(arguments.numbers, &gpu, console)?;
-    let tier = super::tier(&gpu, precision)?;
-    let (traced, inputs, place) = match (&arguments.at, arguments.pixel) {
-        (Some(at), _) => {
-            let (traced, inputs) = at_point(&subject, &at.0, tier, console)?;
-            (traced, inputs, at.to_string())
+    let gpu = adapter(arguments, console)?;
+    let (precision, tier) = match &gpu {
+        Some(gpu) => {
+            let precision = subject.precision(arguments.numbers, gpu, console)?;
+            (precision, super::tier(gpu, precision)?)
         }
-        (None, pixel) => {
-            let [x, y] = pixel.unwrap_or_default();
-            let (traced, inputs) = at_pixel(&subject, [x, y], tier, console)?;
-            (traced, inputs, format!("pixel {x},{y}"))
+        None => {
+            let precision = arguments.numbers.without_view(&subject.settings)?;
+            (precision, precision.into())
         }
     };
-    let columns = columns(&gpu, &traced, &inputs)?;
+    let place = match &arguments.at {
+        Some(at) => Place::Point(&at.0),
+        None => Place::Pixel(arguments.pixel.unwrap_or_default()),
+    };
+    let (sites, columns) = place.columns(arguments, &subject, gpu.as_ref(), tier, console)?;
     let findings = Findings {
         subject: &subject,
-        sites: &traced.sites,
+        sites: &sites,
         columns: &columns,
-        place,
+        place: place.to_string(),
         precision,
-        adapter: gpu.adapter().to_string(),
+        adapter: gpu.map(|gpu| gpu.adapter().to_string()),
         arguments,
     };
     match arguments.format {
@@ -135,67 +159,26 @@ pub(super) fn run(arguments: &ProbeArguments, console: &Console) -> Result<(), F
     .map_err(Failure::stdout)
 }
 
-/// The same invocation on every machine.
-fn columns(gpu: &Gpu, traced: &Traced, inputs: &Inputs) -> Result<Vec<Column>, Failure> {
-    Ok(vec![Column {
-        name: "gpu",
-        trace: GpuTracer::new(gpu, traced, inputs)?.trace(inputs)?,
-    }])
-}
-
-fn at_pixel(
-    subject: &Subject,
-    pixel: [u32; 2],
-    tier: pullback_compiler::lower::Tier,
-    console: &Console,
-) -> Result<(Traced, Inputs), Failure> {
-    let scene = subject.scene(tier, console)?;
-    let bytes = scene.pack_settings(&subject.settings);
-    let inputs = Inputs::pixel(&subject.frame(&bytes), tier, pixel)?;
-    let text = &subject.source.text;
-    Ok((trace::traced_scene(subject.picture(), &scene, text, Recorders::Writing)?, inputs))
-}
-
-fn at_point(
-    subject: &Subject,
-    point: &[f64],
-    tier: pullback_compiler::lower::Tier,
-    console: &Console,
-) -> Result<(Traced, Inputs), Failure> {
-    let what = match subject.picture().scene.space {
-        Space::Complex => What::Derivative,
-        Space::Plane | Space::Space => What::Gradient,
-    };
-    let source = &subject.source;
-    let module = source.program.eval_module(subject.index, what, tier);
-    let module = source.expect(module, console)?;
-    if point.len() != module.inputs.len() {
-        let columns = module.inputs.join(",");
-        return Err(Failure::usage_hint(
-            format!("--at has {} numbers, and this formula takes {columns}", point.len()),
-            format!("give --at {columns}"),
-        ));
+/// The graphics adapter, if one is asked for and there is one; it is no mistake to have none.
+fn adapter(arguments: &ProbeArguments, console: &Console) -> Result<Option<Gpu>, Failure> {
+    if !arguments.on.contains(&Machine::Gpu) {
+        return Ok(None);
     }
-    let frame = subject.frame(&[]);
-    let around = Surroundings {
-        params: frame.params,
-        time: frame.time,
-        pixel: frame.pixel(),
-    };
-    let inputs = Inputs::row(&module, around, point)?;
-    Ok((trace::traced_evaluation(&module, &source.text, Recorders::Writing)?, inputs))
+    match Gpu::open(&arguments.device.adapter) {
+        Ok(gpu) => Ok(Some(gpu)),
+        Err(error @ Error::NoAdapter { .. })
+            if arguments.device.adapter == AdapterChoice::Auto && arguments.on.len() > 1 =>
+        {
+            console.warning(&format!("{error}; only the processor computes"));
+            Ok(None)
+        }
+        Err(error) => Err(error.into()),
+    }
 }
 
 /// A point of the plane or of space.
 #[derive(Clone, Debug, PartialEq)]
 struct Coordinates(Vec<f64>);
-
-impl std::fmt::Display for Coordinates {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let all: Vec<String> = self.0.iter().map(f64::to_string).collect();
-        write!(f, "point {}", all.join(","))
-    }
-}
 
 /// `x,y` or `x,y,z`
 fn coordinates(text: &str) -> Result<Coordinates, String> {

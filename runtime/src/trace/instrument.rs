@@ -51,6 +51,25 @@ pub enum Recorders {
     Silent,
 }
 
+impl Recorders {
+    /// Whether a function has the name of a recorder.
+    pub(super) fn is_name(name: &str) -> bool {
+        RECORDED.iter().any(|shape| shape.recorder() == name)
+    }
+}
+
+/// What there are recorders for.
+const RECORDED: [Shape; 8] = [
+    Shape::Single(1),
+    Shape::Single(2),
+    Shape::Single(3),
+    Shape::Single(4),
+    Shape::Word,
+    Shape::Integer,
+    Shape::Truth,
+    Shape::Double,
+];
+
 /// Whose entry points a traced shader has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Entry {
@@ -162,17 +181,7 @@ fn joined(module: &Module, texts: &Module, entry: Entry) -> Result<(Module, Hand
     // in the order of `Entry`
     let mut linker = Linker::new(vec![module, texts]);
     let mut found = Handles::default();
-    let shapes = [
-        Shape::Single(1),
-        Shape::Single(2),
-        Shape::Single(3),
-        Shape::Single(4),
-        Shape::Word,
-        Shape::Integer,
-        Shape::Truth,
-        Shape::Double,
-    ];
-    for name in shapes.map(Shape::recorder) {
+    for name in RECORDED.map(Shape::recorder) {
         let is_there = |(_, f): (_, &Function)| f.name.as_deref() == Some(name);
         if texts.functions.iter().any(is_there) {
             let handle = linker.function(name, &mut Finished);

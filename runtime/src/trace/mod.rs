@@ -1,10 +1,11 @@
 //! What a shader computes on the way to a pixel, value by value, on any machine that runs it.
 //!
 //! [`Traced`] is a copy of a shader that tells its values; it is run for one pixel ([`Inputs::pixel`]) or one row of
-//! numbers ([`Inputs::row`]), on a device by a [`GpuTracer`]. As every machine runs the same copy, their values stand side by
-//! side by construction, and [`parting()`] finds the first place where they part.
+//! numbers ([`Inputs::row`]), on a device by a [`GpuTracer`], on the processor by [`pixel_on_cpu`] and [`row_on_cpu`]. As every
+//! machine runs the same copy, their values stand side by side by construction, and [`parting()`] finds the first place where they part.
 
 mod copies;
+mod cpu;
 mod fault;
 mod gpu;
 mod inputs;
@@ -15,6 +16,7 @@ mod scan;
 mod site;
 mod text;
 
+pub use cpu::{pixel_on_cpu, row_on_cpu};
 pub use fault::{Fault, first_fault};
 pub use gpu::GpuTracer;
 pub use inputs::{Access, Buffer, Inputs};
@@ -33,7 +35,7 @@ use copies::copies;
 /// does, which would take too long to compile.
 const MAX_COPIES: u64 = 2;
 
-/// A scene that tells everything that has a name in its template and at its entry, and every operation of the formula.
+/// A scene that tells everything that has a name in its template, and every operation of the formula.
 /// What the libraries of drawing and of numbers do by themselves is not told, nor small functions that are called from many
 /// places. `source` is the user's text.
 ///
@@ -57,7 +59,7 @@ pub fn traced_scene(
             Detail::Operations
         } else if copies.get(name).is_some_and(|&n| n > MAX_COPIES) {
             Detail::Nothing
-        } else if own(name) || matches!(name, "pixel_mean" | "encoded_pixel") {
+        } else if own(name) {
             Detail::Names
         } else {
             Detail::Nothing

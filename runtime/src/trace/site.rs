@@ -29,6 +29,14 @@ impl Shape {
         }
     }
 
+    /// The value of numbers as they are told: of a pair, the sum.
+    pub(super) fn value(self, numbers: &[f64]) -> Value {
+        match (self, numbers) {
+            (Self::Pair, &[high, low]) => Value::new(&[sum(high, low)]),
+            _ => Value::new(numbers),
+        }
+    }
+
     /// The function that records it.
     pub(super) fn recorder(self) -> &'static str {
         match self {
@@ -171,24 +179,28 @@ impl Trace {
 }
 
 fn decode(shape: Shape, words: &[u32]) -> Value {
-    let single = |word: u32| f64::from(f32::from_bits(word));
-    match (shape, words) {
-        (Shape::Single(_), _) => {
-            let mut numbers = [0.0; 4];
+    let mut numbers = [0.0; 4];
+    let count = match (shape, words) {
+        (Shape::Single(_) | Shape::Pair, _) => {
             for (number, &word) in numbers.iter_mut().zip(words) {
-                *number = single(word);
+                *number = f64::from(f32::from_bits(word));
             }
-            Value::new(&numbers[..words.len().min(4)])
+            words.len().min(4)
         }
-        (Shape::Pair, &[high, low]) => Value::new(&[sum(single(high), single(low))]),
         (Shape::Double, &[low, high]) => {
-            let bits = u64::from(high) << 32 | u64::from(low);
-            Value::new(&[f64::from_bits(bits)])
+            numbers[0] = f64::from_bits(u64::from(high) << 32 | u64::from(low));
+            1
         }
-        (Shape::Integer, &[word]) => Value::new(&[f64::from(word.cast_signed())]),
-        (_, &[word, ..]) => Value::new(&[f64::from(word)]),
-        _ => Value::new(&[]),
-    }
+        (Shape::Integer, &[word]) => {
+            numbers[0] = f64::from(word.cast_signed());
+            1
+        }
+        _ => {
+            numbers[0] = f64::from(words.first().copied().unwrap_or(0));
+            1
+        }
+    };
+    shape.value(&numbers[..count])
 }
 
 /// Of a pair. One that is not finite has its value in the first part.

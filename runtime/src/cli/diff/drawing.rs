@@ -1,9 +1,11 @@
 //! Drawing one program twice.
 
 use std::str::FromStr;
+use std::sync::atomic::AtomicBool;
 
 use clap::ValueEnum;
 use pullback_runtime::difference::Bitmap;
+use pullback_runtime::executor::{Arithmetic, Painter};
 use pullback_runtime::{AdapterChoice, Renderer};
 
 use super::{DiffArguments, Named};
@@ -15,8 +17,24 @@ use crate::cli::{Console, Device, Input, Numbers, Tier, spelling};
 /// `gpu:accurate`: what draws a picture.
 #[derive(Clone, Debug)]
 pub(in crate::cli) struct Side {
-    adapter: AdapterChoice,
+    machine: Machine,
     precision: Option<Tier>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Machine {
+    Adapter(AdapterChoice),
+    Processor(Arithmetic),
+}
+
+impl Machine {
+    fn named(text: &str) -> Self {
+        let all = [Arithmetic::Reference, Arithmetic::Ieee32];
+        match all.into_iter().find(|arithmetic| arithmetic.name() == text) {
+            Some(arithmetic) => Self::Processor(arithmetic),
+            None => Self::Adapter(text.parse().unwrap_or_default()),
+        }
+    }
 }
 
 impl FromStr for Side {
@@ -30,8 +48,10 @@ impl FromStr for Side {
         if adapter.is_empty() {
             return Err("write ADAPTER or ADAPTER:PRECISION, such as gpu:accurate".into());
         }
-        let adapter = adapter.parse().unwrap_or_default();
-        Ok(Self { adapter, precision })
+        Ok(Self {
+            machine: Machine::named(adapter),
+            precision,
+        })
     }
 }
 
@@ -69,28 +89,42 @@ pub(super) fn both(arguments: &DiffArguments, console: &Console) -> Result<[Name
 }
 
 fn drawn(subject: &Subject, side: &Side, console: &Console) -> Result<Named, Failure> {
-    let device = Device {
-        adapter: side.adapter.clone(),
-    };
-    let gpu = crate::cli::open(&device, console)?;
     let numbers = Numbers {
         precision: side.precision,
     };
-    let precision = subject.precision(numbers, &gpu, console)?;
-    let scene = subject.scene(crate::cli::tier(&gpu, precision)?, console)?;
-    let bytes = scene.pack_settings(&subject.settings);
-    let frame = subject.frame(&bytes);
     let mut rows: Vec<u8> = Vec::new();
     let mut progress = Progress::new(console);
-    let mut renderer = Renderer::new(&gpu, &scene)?;
     let mut counted = Counted {
         sink: &mut rows,
         progress: &mut progress,
     };
-    renderer.render(&frame, &mut counted)?;
+    let size = subject.frame(&[]).size;
+    let (precision, machine) = match &side.machine {
+        Machine::Adapter(adapter) => {
+            let device = Device {
+                adapter: adapter.clone(),
+            };
+            let gpu = crate::cli::open(&device, console)?;
+            let precision = subject.precision(numbers, &gpu, console)?;
+            let scene = subject.scene(crate::cli::tier(&gpu, precision)?, console)?;
+            let bytes = scene.pack_settings(&subject.settings);
+            let frame = subject.frame(&bytes);
+            Renderer::new(&gpu, &scene)?.render(&frame, &mut counted)?;
+            (precision, gpu.adapter().to_string())
+        }
+        Machine::Processor(arithmetic) => {
+            let precision = numbers.without_view(&subject.settings)?;
+            let scene = subject.scene(precision.into(), console)?;
+            let painter = Painter::new(&scene, *arithmetic)?;
+            let never = AtomicBool::new(false);
+            let frame = subject.frame(&[]);
+            painter.render(&frame, &subject.settings, &never, &mut counted)?;
+            (precision, arithmetic.name().to_owned())
+        }
+    };
     Ok(Named {
-        picture: Bitmap::from_rgba(frame.size, &rows)?,
-        name: format!("{} on {}", precision.name(), gpu.adapter()),
+        picture: Bitmap::from_rgba(size, &rows)?,
+        name: format!("{} on {machine}", precision.name()),
     })
 }
 
@@ -100,22 +134,25 @@ mod tests {
 
     #[test]
     fn sides() {
-        let read = |text: &str| text.parse::<Side>().map(|s| (s.adapter, s.precision));
-        assert_eq!(read("gpu"), Ok((AdapterChoice::Gpu, None)));
-        assert_eq!(
-            read("software:fast"),
-            Ok((AdapterChoice::Software, Some(Tier::Fast)))
-        );
-        assert_eq!(
-            read("Radeon RX:auto"),
-            Ok((AdapterChoice::Named("Radeon RX".into()), Some(Tier::Auto)))
-        );
+        let check = |text: &str, machine: Machine, precision: Option<Tier>| {
+            let side: Side = text.parse().unwrap();
+            assert_eq!((side.machine, side.precision), (machine, precision), "{text}");
+        };
+        check("gpu", Machine::Adapter(AdapterChoice::Gpu), None);
+        let software = Machine::Adapter(AdapterChoice::Software);
+        check("software:fast", software, Some(Tier::Fast));
+        let named = AdapterChoice::Named("Radeon RX".into());
+        check("Radeon RX:auto", Machine::Adapter(named), Some(Tier::Auto));
+        let reference = Machine::Processor(Arithmetic::Reference);
+        check("reference", reference, None);
+        let exact = Machine::Processor(Arithmetic::Ieee32);
+        check("ieee32:extended", exact, Some(Tier::Extended));
         for (bad, expected) in [
             ("gpu:acurate", "did you mean `accurate`"),
             ("gpu:", "there are fast, "),
             (":fast", "write ADAPTER"),
         ] {
-            let message = read(bad).unwrap_err();
+            let message = bad.parse::<Side>().unwrap_err();
             assert!(message.contains(expected), "{bad}: {message}");
         }
     }

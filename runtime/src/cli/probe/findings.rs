@@ -14,7 +14,8 @@ pub(super) struct Findings<'a> {
     /// `pixel 3,4`
     pub(super) place: String,
     pub(super) precision: Precision,
-    pub(super) adapter: String,
+    /// None where no adapter takes part.
+    pub(super) adapter: Option<String>,
     pub(super) arguments: &'a ProbeArguments,
 }
 

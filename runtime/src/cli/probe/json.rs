@@ -19,7 +19,7 @@ struct Report<'a> {
     scene: &'a str,
     place: &'a str,
     precision: &'a str,
-    adapter: &'a str,
+    adapter: Option<&'a str>,
     machines: Vec<Machine<'a>>,
     values: Vec<Row<'a>>,
     partings: Vec<Parted<'a>>,
@@ -120,7 +120,7 @@ pub(super) fn write(findings: &Findings) -> io::Result<()> {
         scene: findings.subject.picture().scene.name,
         place: &findings.place,
         precision: findings.precision.name(),
-        adapter: &findings.adapter,
+        adapter: findings.adapter.as_deref(),
         machines: findings
             .columns
             .iter()

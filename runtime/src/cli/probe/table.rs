@@ -24,7 +24,10 @@ pub(super) fn tell(findings: &Findings, console: &Console) -> io::Result<()> {
         findings.subject.source.name,
         findings.precision.name()
     )?;
-    writeln!(out, "gpu is {}\n", findings.adapter)?;
+    if let Some(adapter) = &findings.adapter {
+        writeln!(out, "gpu is {adapter}")?;
+    }
+    writeln!(out)?;
     let pairs = findings.pairs();
     lines(&mut out, findings, &pairs)?;
     for column in findings.columns {
