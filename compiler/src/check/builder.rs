@@ -140,8 +140,6 @@ impl<'a> Builder<'a> {
 
     /// Defines a name for what is built next, such as an input of a formula.
     pub fn define(&mut self, name: &'a str, value: Value) {
-        // an argument is first written where it is used
-        self.graph.cover(Span::default());
         self.frame.parameters.push((name, value.clone()));
         self.scope.push(name, value);
     }

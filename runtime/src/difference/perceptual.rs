@@ -13,7 +13,7 @@ use super::Bitmap;
 use crate::{Error, Metadata, Size, image_file};
 
 /// Pixels per degree of the field of view: a monitor 0.7 m wide with 3840 pixels, 0.7 m away.
-pub const PIXELS_PER_DEGREE: f32 = nv_flip::DEFAULT_PIXELS_PER_DEGREE;
+pub const PIXELS_PER_DEGREE: f32 = 3840.0 * std::f32::consts::PI / 180.0;
 
 /// Rows of a stripe, which bounds the memory.
 const STRIPE: u32 = 128;
@@ -190,6 +190,26 @@ mod tests {
             assert_eq!(by_stripes(&a, &b, height, &mut |_, _| ()).unwrap(), whole);
         }
         assert!(whole.iter().any(|&x| x > 0.1));
+    }
+
+    /// Values by `flip_evaluator` of PyPI, a later version of the authors' program, which filters in another order.
+    #[test]
+    fn values_of_the_authors_program() {
+        let wrapped = |x: u32| (x % 256) as u8;
+        let a = picture(64, 48, |x, y| [4 * x, 5 * y, 3 * x + 2 * y].map(wrapped));
+        let b = picture(64, 48, |x, y| {
+            [4 * x + 9, 5 * y, 3 * x + 2 * y + x / 8 * 5].map(wrapped)
+        });
+        let found = compared(&a, &b);
+        let near = |found: f64, expected: f64| {
+            assert!((found - expected).abs() < 1e-4, "{found}, not {expected}");
+        };
+        near(found.mean, 0.291_520);
+        near(found.max, 0.976_532);
+        assert_eq!(found.worst, [63, 31]);
+        let at = |x: usize, y: usize| f64::from(found.map()[y * 64 + x]);
+        near(at(20, 10), 0.159_716);
+        near(at(60, 40), 0.682_747);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use pullback_compiler::{EvalModule, SceneModule, SettingValue};
 
+use super::inputs::check;
 use super::site::{Event, Site, Trace};
 use super::{Recorders, Traced};
 use crate::evaluate::Surroundings;
@@ -15,18 +16,19 @@ const MOST: usize = 1 << 20;
 /// recorders.
 ///
 /// # Errors
-/// [`Error::Executor`], and [`Error::Invalid`] for a frame outside of the limits.
+/// [`Error::Executor`], and [`Error::Invalid`] for a frame outside of the limits or a pixel outside of it.
 pub fn pixel_on_cpu(
     arithmetic: Arithmetic,
     scene: &SceneModule,
     traced: &Traced,
     frame: &Frame,
     settings: &[SettingValue],
-    [x, y]: [u32; 2],
+    pixel: [u32; 2],
 ) -> Result<Trace, Error> {
+    check(frame, pixel)?;
     let mut scene = scene.clone();
     (scene.module, scene.info) = (traced.module.clone(), traced.info.clone());
-    let middle = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+    let middle = pixel.map(|k| f64::from(k) + 0.5);
     let mut log = Log::new(traced);
     Painter::traced(&scene, arithmetic)?.trace(frame, settings, &[middle], &mut log)?;
     Ok(log.trace)

@@ -53,16 +53,9 @@ impl Inputs {
     ///
     /// # Errors
     /// [`Error::Invalid`] if the pixel is not in the picture.
-    pub fn pixel(frame: &Frame, tier: Tier, [x, y]: [u32; 2]) -> Result<Self, Error> {
-        let size = frame.size;
-        if x >= size.width || y >= size.height {
-            return Err(Error::Invalid {
-                reason: format!(
-                    "pixel {x},{y} is not in a picture of {}x{} pixels",
-                    size.width, size.height
-                ),
-            });
-        }
+    pub fn pixel(frame: &Frame, tier: Tier, pixel: [u32; 2]) -> Result<Self, Error> {
+        check(frame, pixel)?;
+        let [x, y] = pixel;
         let tile = Tile {
             x,
             y,
@@ -150,4 +143,18 @@ impl Inputs {
             tier,
         }
     }
+}
+
+/// Whether a pixel is in the picture.
+pub(super) fn check(frame: &Frame, [x, y]: [u32; 2]) -> Result<(), Error> {
+    let size = frame.size;
+    if x < size.width && y < size.height {
+        return Ok(());
+    }
+    Err(Error::Invalid {
+        reason: format!(
+            "pixel {x},{y} is not in a picture of {}x{} pixels",
+            size.width, size.height
+        ),
+    })
 }

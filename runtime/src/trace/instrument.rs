@@ -9,8 +9,8 @@ use naga::{
     Block, Expression, Function, Handle, Literal, Module, Range, ScalarKind, Span, Statement, Type,
     TypeInner, UniqueArena,
 };
-use pullback_compiler::link::{Linker, Provider};
-use pullback_compiler::lower::{Format, LowerError};
+use pullback_compiler::link::{Linker, Provider, number_module};
+use pullback_compiler::lower::{Format, LowerError, Tier};
 use rustc_hash::FxHashMap;
 
 use super::inputs::ROOM;
@@ -24,7 +24,7 @@ const WRITING: &str = include_str!("record.wgsl");
 const WRITING_DOUBLES: &str = include_str!("record_double.wgsl");
 /// Recorders that do nothing.
 const SILENT: &str = include_str!("silent.wgsl");
-const SILENT_DOUBLES: &str = "fn record_double(site: u32, value: f64) {}\n";
+const SILENT_DOUBLES: &str = "alias real = f64; fn record_double(site: u32, value: real) {}\n";
 
 /// More parts of a structure are not told.
 const MAX_PARTS: usize = 24;
@@ -92,14 +92,14 @@ pub struct Traced {
 
 impl Traced {
     /// Makes a copy of a valid shader that tells its values: of each function as much as `detail` says of its name. The
-    /// format is that of the generated functions, and `source` the text that they were generated from.
+    /// tier is that of the generated functions, and `source` the text that they were generated from.
     ///
     /// # Errors
     /// [`Error::Invalid`] if the module or what became of it is not valid.
     pub fn new(
         module: &Module,
         recorders: Recorders,
-        format: Format,
+        tier: Tier,
         source: &str,
         detail: impl Fn(&str) -> Detail,
     ) -> Result<Self, Error> {
@@ -107,26 +107,26 @@ impl Traced {
             Recorders::Writing => format!("const TRACE_WORDS: u32 = {ROOM}u;\n{WRITING}"),
             Recorders::Silent => SILENT.to_owned(),
         };
-        if format == Format::Double {
+        if tier.precision.format() == Format::Double {
             text += match recorders {
                 Recorders::Writing => WRITING_DOUBLES,
                 Recorders::Silent => SILENT_DOUBLES,
             };
         }
-        Self::with_recorders(module, (&text, Entry::Module), format, source, detail)
+        Self::with_recorders(module, (&text, Entry::Module), tier, source, detail)
     }
 
     /// [`Self::new`] with other recorders, in WGSL; kinds of numbers that have none are not told.
     pub(super) fn with_recorders(
         module: &Module,
         (text, entry): (&str, Entry),
-        format: Format,
+        tier: Tier,
         source: &str,
         detail: impl Fn(&str) -> Detail,
     ) -> Result<Self, Error> {
         let recorders = naga::front::wgsl::parse_str(text);
         let recorders = recorders.map_err(|error| broken(&error.emit_to_string(text)))?;
-        let (mut module, recorders) = joined(module, &recorders, entry)?;
+        let (mut module, recorders) = joined(module, &recorders, entry, tier)?;
         let info = validate(&module)?;
         let mut sites = Vec::new();
         let handles: Vec<Handle<Function>> = module.functions.iter().map(|(h, _)| h).collect();
@@ -142,7 +142,7 @@ impl Traced {
                 &info[handle],
                 Scope {
                     detail,
-                    format,
+                    format: tier.precision.format(),
                     source,
                     recorders: &recorders,
                 },
@@ -177,9 +177,14 @@ impl Provider for Finished {
 }
 
 /// The module with the recorders in front of its functions.
-fn joined(module: &Module, texts: &Module, entry: Entry) -> Result<(Module, Handles), Error> {
-    // in the order of `Entry`
-    let mut linker = Linker::new(vec![module, texts]);
+fn joined(
+    module: &Module,
+    texts: &Module,
+    entry: Entry,
+    tier: Tier,
+) -> Result<(Module, Handles), Error> {
+    // in the order of `Entry`; the library has what the recorders need
+    let mut linker = Linker::new(vec![module, texts, number_module(tier)]);
     let mut found = Handles::default();
     for name in RECORDED.map(Shape::recorder) {
         let is_there = |(_, f): (_, &Function)| f.name.as_deref() == Some(name);

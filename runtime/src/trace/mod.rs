@@ -53,8 +53,7 @@ pub fn traced_scene(
         functions.any(|(_, f)| !pullback_compiler::link::is_stub(f))
     };
     let copies = copies(&scene.module);
-    let format = scene.tier.precision.format();
-    Traced::new(&scene.module, recorders, format, source, |name| {
+    Traced::new(&scene.module, recorders, scene.tier, source, |name| {
         if DEMANDS.contains(&name) {
             Detail::Operations
         } else if copies.get(name).is_some_and(|&n| n > MAX_COPIES) {
@@ -76,8 +75,7 @@ pub fn traced_evaluation(
     source: &str,
     recorders: Recorders,
 ) -> Result<Traced, Error> {
-    let format = module.tier.precision.format();
-    let mut traced = Traced::new(&module.module, recorders, format, source, |name| match name {
+    let mut traced = Traced::new(&module.module, recorders, module.tier, source, |name| match name {
         "evaluate" => Detail::Operations,
         _ => Detail::Nothing,
     })?;

@@ -1,7 +1,8 @@
 
-fn real_to_words(x: f64) -> vec2u { return vec2u(); }
+alias real = f64;
+fn real_to_words(x: real) -> vec2u { return vec2u(); }
 
-fn record_double(site: u32, value: f64) {
+fn record_double(site: u32, value: real) {
     let place = record_event(site, 2u);
     let words = real_to_words(value);
     trace[place] = words.x;

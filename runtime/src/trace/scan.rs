@@ -51,8 +51,7 @@ pub fn scan(
     frame: &Frame,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Oddities, Error> {
-    let format = scene.tier.precision.format();
-    let traced = Traced::with_recorders(&scene.module, (SCAN, Entry::Recorders), format, "", |name| {
+    let traced = Traced::with_recorders(&scene.module, (SCAN, Entry::Recorders), scene.tier, "", |name| {
         if DEMANDS.contains(&name) {
             Detail::Result
         } else {

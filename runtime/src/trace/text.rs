@@ -145,6 +145,9 @@ impl<'m> Writer<'m> {
                 self.operand(handle, reject, depth)
             ),
             Expression::AccessIndex { base, index } => {
+                if let Some(text) = self.half(base, index, depth) {
+                    return text;
+                }
                 format!("{}{}", self.factor(handle, base, depth), self.member(base, index))
             }
             Expression::Access { base, index } => format!(
@@ -172,6 +175,19 @@ impl<'m> Writer<'m> {
             }
             _ => "…".into(),
         }
+    }
+
+    /// One of two functions of one operand that are computed together.
+    fn half(&self, base: Handle<Expression>, index: u32, depth: usize) -> Option<String> {
+        let Expression::CallResult(function) = self.function.expressions[base] else {
+            return None;
+        };
+        let name = self.module.functions[function].name.as_deref()?;
+        let row = table::rows().iter().find(|row| {
+            table::pair(row.prim).is_some_and(|pair| pair.gpu == name && pair.place == index)
+        })?;
+        let operand = self.list(base, self.arguments(base), depth);
+        Some(format!("{}({operand})", row.sign()))
     }
 
     /// `.x`, `.name` or `[2]`.
