@@ -170,6 +170,21 @@ fn a_flushed_subnormal_is_found() {
     assert!((values[1].numbers()[0] - product).abs() < 1e-6 * product);
 }
 
+/// The compiled form of this formula computes the difference, too, and chooses another value.
+#[test]
+fn what_is_not_chosen_does_not_count() {
+    let subject = Subject::new("√(x^2 + 1) - x");
+    let traced = subject.traced(Recorders::Silent);
+    let both = [Arithmetic::Ieee32, Arithmetic::Reference];
+    let [single, double] = both.map(|arithmetic| subject.on_cpu(arithmetic, &traced, &[300.0]));
+    let far = single.events.iter().zip(&double.events).any(|(a, b)| {
+        let shape = traced.sites[a.site].shape;
+        trace::distance(shape, a.value, b.value) > 1000.0
+    });
+    assert!(far, "the difference cancels");
+    assert_eq!(parting(&traced.sites, [&single, &double], ULPS), None);
+}
+
 /// Where a driver takes no liberties, it computes what binary32 is, bit by bit, whatever way it takes.
 #[test]
 fn the_gpu_and_exact_binary32_agree() {
@@ -251,6 +266,14 @@ fn odd_pixels_are_found() {
     assert_eq!(json["infinite"]["operations"][0]["result"], serde_json::json!(["-inf"]));
     let (_, text, _) = pullback(folder.path(), &arguments);
     assert!(text.contains("`log(x)` in field_grad"), "{text}");
+    // what is not chosen is not to blame
+    let formula = "(if x > 0 then log(x) else x) + √y";
+    let arguments = ["probe", formula, "--nan", "--size", "64x48", "--adapter", "software"];
+    let (_, json, _) = pullback(folder.path(), &[&arguments[..], &["--format", "json"]].concat());
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["nan"]["pixels"], 64 * 24);
+    assert_eq!(json["nan"]["operations"].as_array().unwrap().len(), 1);
+    assert_eq!(json["nan"]["operations"][0]["operation"], "sqrt(y)");
     let (_, calm, _) = pullback(folder.path(), &["probe", "x + y", "--nan", "--size", "9x9"]);
     assert!(calm.contains("NaN       0 of 9x9"), "{calm}");
 }

@@ -1,5 +1,6 @@
 //! Which operation made a value NaN or infinite.
 
+use super::relevance::relevant;
 use super::site::{Operand, Site, Trace, Value};
 
 /// An operation that makes a number that is none of numbers that are.
@@ -13,14 +14,17 @@ pub struct Fault {
     pub value: Value,
 }
 
-/// The first operation whose operands are all finite and whose result is not.
+/// The first operation whose operands are all finite and whose result is not, of those that have to do with what the
+/// formula gives.
 #[must_use]
 pub fn first_fault(sites: &[Site], trace: &Trace) -> Option<Fault> {
+    let odd: Vec<bool> = trace.events.iter().map(|event| !event.value.is_finite()).collect();
+    let relevant = relevant(sites, &trace.events, &odd);
     let mut latest: Vec<Option<Value>> = vec![None; sites.len()];
-    for event in &trace.events {
+    for (event, is_relevant) in trace.events.iter().zip(relevant) {
         let site = sites.get(event.site)?;
         *latest.get_mut(event.site)? = Some(event.value);
-        if !site.is_operation || event.value.is_finite() {
+        if !(is_relevant && site.is_operation) {
             continue;
         }
         if let Some(operands) = operands(site, &latest)

@@ -533,9 +533,14 @@ impl<'m, 's> Instrument<'m, 's> {
         let generated = self.scope.detail == Detail::Operations;
         let span = self.before.expressions.get_span(value).to_range();
         let span = span.filter(|span| generated && !span.is_empty());
-        let operands = told.operation.and_then(|operation| {
-            operands::operands(self.before, &self.writer, &self.known, operation)
-        });
+        let taken = match told.operation {
+            Some(operation) => operands::taken(self.before, &self.writer, &self.known, operation),
+            None if generated && !told.is_source => operands::Taken {
+                operands: operands::parts(self.before, &self.known, value),
+                ..operands::Taken::default()
+            },
+            None => operands::Taken::default(),
+        };
         self.sites.push(Site {
             function: self.before.name.clone().unwrap_or_default(),
             what: told.what,
@@ -543,8 +548,9 @@ impl<'m, 's> Instrument<'m, 's> {
             text: told.text.clone(),
             span: span.map(|s| pullback_grammar::Span::new(s.start as u32, s.end as u32)),
             shape: part.shape,
-            is_operation: operands.is_some(),
-            operands: operands.unwrap_or_default(),
+            operands: taken.operands,
+            choice: taken.choice,
+            is_operation: taken.is_complete,
         });
         self.sites.len() - 1
     }

@@ -12,6 +12,7 @@ mod inputs;
 mod instrument;
 mod operands;
 mod parting;
+mod relevance;
 mod scan;
 mod site;
 mod text;

@@ -3,7 +3,7 @@
 use naga::{Expression, Function, Handle, Literal};
 use rustc_hash::FxHashMap;
 
-use super::site::Operand;
+use super::site::{Choice, Operand};
 use super::text::Writer;
 
 /// Operands that are looked through, such as vectors that are put together from parts, before they count as unknown.
@@ -52,14 +52,24 @@ pub(super) fn is_operation(expression: &Expression) -> bool {
     )
 }
 
-/// Everything that an operation takes; none where that is not known of all.
-pub(super) fn operands(
+/// What a value is computed from.
+#[derive(Debug, Default)]
+pub(super) struct Taken {
+    /// What is known of it.
+    pub(super) operands: Vec<Operand>,
+    pub(super) choice: Option<Choice>,
+    /// Whether all of it is known, and counts.
+    pub(super) is_complete: bool,
+}
+
+/// What an operation takes.
+pub(super) fn taken(
     function: &Function,
     writer: &Writer,
     known: &Known,
     operation: Handle<Expression>,
-) -> Option<Vec<Operand>> {
-    let taken: Vec<Handle<Expression>> = match function.expressions[operation] {
+) -> Taken {
+    let all: Vec<Handle<Expression>> = match function.expressions[operation] {
         Expression::Binary { left, right, .. } => vec![left, right],
         Expression::Unary { expr, .. } | Expression::As { expr, .. } => vec![expr],
         Expression::Relational { argument, .. } => vec![argument],
@@ -70,16 +80,49 @@ pub(super) fn operands(
             arg3,
             ..
         } => [Some(arg), arg1, arg2, arg3].into_iter().flatten().collect(),
-        // what is not chosen does not count
-        Expression::Select { .. } => return None,
+        Expression::Select {
+            condition,
+            accept,
+            reject,
+        } => return chosen(function, known, [condition, accept, reject]),
         Expression::CallResult(_) => writer.arguments(operation).to_vec(),
-        _ => return None,
+        _ => return Taken::default(),
     };
-    let mut all = Vec::new();
-    for operand in taken {
-        resolve(function, known, operand, &[], DEPTH, &mut all)?;
+    let mut operands = Vec::new();
+    let mut is_complete = true;
+    for operand in all {
+        is_complete &= resolve(function, known, operand, &[], DEPTH, &mut operands).is_some();
     }
-    Some(all)
+    Taken {
+        operands,
+        choice: None,
+        is_complete,
+    }
+}
+
+fn chosen(function: &Function, known: &Known, [condition, accept, reject]: [Handle<Expression>; 3]) -> Taken {
+    let mut operands = Vec::new();
+    let mut add = |value| {
+        let _ = resolve(function, known, value, &[], DEPTH, &mut operands);
+        operands.len()
+    };
+    let choice = Choice {
+        accept: add(condition),
+        reject: add(accept),
+    };
+    add(reject);
+    Taken {
+        operands,
+        choice: Some(choice),
+        is_complete: false,
+    }
+}
+
+/// What a value is made of that is handed on: returned, stored, or decided by.
+pub(super) fn parts(function: &Function, known: &Known, value: Handle<Expression>) -> Vec<Operand> {
+    let mut operands = Vec::new();
+    let _ = resolve(function, known, value, &[], DEPTH, &mut operands);
+    operands
 }
 
 fn resolve(
@@ -108,9 +151,12 @@ fn resolve(
                 resolve(function, known, component, rest, depth, all)?;
             }
             None => {
+                let mut found = Some(());
                 for &component in components {
-                    resolve(function, known, component, &[], depth, all)?;
+                    let one = resolve(function, known, component, &[], depth, all);
+                    found = found.and(one);
                 }
+                return found;
             }
         },
         Expression::Splat { value, .. } => resolve(function, known, *value, &[], depth, all)?,

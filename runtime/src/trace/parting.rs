@@ -1,5 +1,6 @@
 //! Where two traces of one shader part.
 
+use super::relevance::relevant;
 use super::site::{Shape, Site, Trace, Value, What};
 
 /// Where two traces part.
@@ -36,33 +37,37 @@ impl Parting {
 }
 
 /// The first place where traces part: a value that differs by more than `ulps` units in the last place, or another way.
-/// The second trace is the one that counts as true. A truth value or whole number differs if it is not the same.
+/// A value that is not chosen, or whose error later operations swallow, does not count. The second trace is the one that
+/// counts as true. A truth value or whole number differs if it is not the same.
 #[must_use]
 pub fn parting(sites: &[Site], traces: [&Trace; 2], ulps: f64) -> Option<Parting> {
     let [a, b] = traces.map(|trace| trace.events.as_slice());
-    let mut last = 0;
-    for (event, (x, y)) in a.iter().zip(b).enumerate() {
-        if x.site != y.site {
-            return Some(Parting::Way { event, site: last });
-        }
-        let Some(site) = sites.get(x.site) else {
-            continue;
-        };
-        let found = distance(site.shape, x.value, y.value);
-        if found > ulps {
-            return Some(Parting::Value {
-                event,
-                site: x.site,
-                values: [x.value, y.value],
-                ulps: found,
-            });
-        }
-        last = x.site;
+    let together = a.iter().zip(b).take_while(|(x, y)| x.site == y.site).count();
+    let distances: Vec<f64> = a
+        .iter()
+        .zip(b)
+        .take(together)
+        .map(|(x, y)| {
+            let site = sites.get(x.site);
+            site.map_or(0.0, |site| distance(site.shape, x.value, y.value))
+        })
+        .collect();
+    let parted: Vec<bool> = distances.iter().map(|&found| found > ulps).collect();
+    let relevant = relevant(sites, &b[..together], &parted);
+    if let Some(event) = relevant.iter().position(|&is| is) {
+        return Some(Parting::Value {
+            event,
+            site: b[event].site,
+            values: [a[event].value, b[event].value],
+            ulps: distances[event],
+        });
     }
-    let complete = !traces.iter().any(|trace| trace.is_cut);
-    (complete && a.len() != b.len()).then_some(Parting::Way {
-        event: a.len().min(b.len()),
-        site: last,
+    let is_cut = traces.iter().any(|trace| trace.is_cut);
+    let ends = together == a.len() && together == b.len()
+        || is_cut && together == a.len().min(b.len());
+    (!ends).then(|| Parting::Way {
+        event: together,
+        site: together.checked_sub(1).map_or(0, |last| b[last].site),
     })
 }
 

@@ -84,10 +84,21 @@ pub struct Site {
     pub span: Option<Span>,
     /// What sort of number.
     pub shape: Shape,
-    /// What the operation takes.
+    /// What it is computed from, as far as that is told.
     pub(super) operands: Vec<Operand>,
-    /// Whether what is told is the result of one operation, with all its operands known.
+    /// Where it is one of two values by a condition, which is the first operand.
+    pub(super) choice: Option<Choice>,
+    /// Whether it is the result of one operation, with all its operands known, which all count.
     pub(super) is_operation: bool,
+}
+
+/// Where the operands begin of which a choice takes one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Choice {
+    /// Of the value where the condition holds.
+    pub(super) accept: usize,
+    /// Of the value where it does not; up to the end.
+    pub(super) reject: usize,
 }
 
 /// Where an operand is known from.

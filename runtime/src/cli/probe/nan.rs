@@ -158,6 +158,15 @@ fn tell(
             writeln!(out)?;
             told_culprit(&mut out, subject, &sites[site], kind, culprit, console)?;
         }
+        let explained: usize = kind.culprits.values().map(|culprit| culprit.count).sum();
+        if explained < kind.traced {
+            let count = kind.traced - explained;
+            writeln!(
+                out,
+                "\nat {count} of {} traced pixels that are {} no single operation is to blame",
+                kind.traced, kind.name
+            )?;
+        }
     }
     out.flush()
 }

@@ -143,7 +143,10 @@ fn parting(
     let [a, b] = pair.names;
     let Some(parting) = pair.parting else {
         let ulps = findings.arguments.ulps;
-        return writeln!(out, "{a} and {b} do not part: nothing differs by more than {ulps} ulp");
+        return writeln!(
+            out,
+            "{a} and {b} do not part: nothing that the result depends on differs by more than {ulps} ulp"
+        );
     };
     let site = &findings.sites[parting.site()];
     let (message, label) = match parting {
