@@ -13,6 +13,7 @@ mod fmt;
 mod functions;
 mod json;
 mod overrides;
+mod place;
 mod probe;
 mod progress;
 mod render;
@@ -34,6 +35,7 @@ use pullback_runtime::{AdapterChoice, Capabilities, Gpu};
 pub(crate) use console::Console;
 use failure::Failure;
 use overrides::Assignment;
+use place::Place;
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -123,6 +125,15 @@ struct Settings {
 /// Where to compute.
 #[derive(Debug, Args)]
 struct Device {
+    /// The graphics adapter: auto, gpu, software, or a part of its name; or the processor: reference (f64), ieee32 (exact
+    /// single precision)
+    #[arg(long, default_value = "auto", value_name = "NAME")]
+    adapter: Place,
+}
+
+/// Which graphics adapter to use.
+#[derive(Debug, Args)]
+struct Adapter {
     /// The graphics adapter: auto, gpu, software, or a part of its name
     #[arg(long, default_value = "auto", value_name = "NAME")]
     adapter: AdapterChoice,
@@ -223,8 +234,8 @@ fn set_precision(settings: &[SettingValue]) -> Option<Precision> {
 }
 
 /// Opens the adapter, and says which it is.
-fn open(device: &Device, console: &Console) -> Result<Gpu, Failure> {
-    let gpu = Gpu::open(&device.adapter)?;
+fn open(choice: &AdapterChoice, console: &Console) -> Result<Gpu, Failure> {
+    let gpu = Gpu::open(choice)?;
     console.note(&format!("adapter: {}", gpu.adapter()));
     Ok(gpu)
 }

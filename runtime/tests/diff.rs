@@ -108,8 +108,8 @@ fn a_formula_drawn_twice() {
     let (code, json, errors) = pullback(folder.path(), &arguments);
     assert_eq!(code, 0, "{errors}");
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(json["a"], "accurate on ieee32");
-    assert_eq!(json["b"], "accurate on reference");
+    assert_eq!(json["a"], "accurate on the processor, in exact single precision");
+    assert_eq!(json["b"], "double on the processor, in f64");
     assert_eq!(json["thresholds"][0]["holds"], true);
     let worst = json["linear"]["red"]["max"].as_f64().unwrap();
     assert!(worst < 0.02, "{worst}");

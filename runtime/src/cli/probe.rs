@@ -15,7 +15,7 @@ use pullback_runtime::{AdapterChoice, Error, Gpu, Size};
 use super::failure::Failure;
 use super::render::{point, positive, size};
 use super::subject::{Subject, Wanted};
-use super::{Console, Device, Input, Numbers, Rules, Settings, Which};
+use super::{Adapter, Console, Input, Numbers, Rules, Settings, Which};
 use findings::Findings;
 use place::Place;
 
@@ -53,7 +53,7 @@ pub(super) struct ProbeArguments {
           default_values_t = [Machine::Gpu, Machine::Ieee32, Machine::Reference])]
     on: Vec<Machine>,
     #[command(flatten)]
-    device: Device,
+    device: Adapter,
     #[command(flatten)]
     numbers: Numbers,
     #[command(flatten)]
@@ -124,7 +124,7 @@ pub(super) fn run(arguments: &ProbeArguments, console: &Console) -> Result<(), F
     };
     let subject = Subject::open(&wanted, console)?;
     if arguments.nan {
-        let gpu = super::open(&arguments.device, console)?;
+        let gpu = super::open(&arguments.device.adapter, console)?;
         return nan::run(arguments, &subject, &gpu, console);
     }
     let gpu = adapter(arguments, console)?;

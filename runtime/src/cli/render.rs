@@ -1,18 +1,21 @@
 //! `pullback render`
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 use pullback_compiler::lower::Precision;
 use pullback_compiler::scene::{SettingKind, Space};
-use pullback_compiler::{Picture, SettingValue};
+use pullback_compiler::{Picture, SceneModule, SettingValue};
 use pullback_runtime::auto::{self, Scenery};
+use pullback_runtime::executor::Painter;
 use pullback_runtime::render::{MAX_SAMPLES, MAX_SIDE};
 use pullback_runtime::{
-    Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, fill_in_scale, image_file,
+    Error, Frame, Gpu, Metadata, Pipeline, Renderer, RowSink, Size, View, fill_in_scale, image_file,
 };
 
 use super::failure::Failure;
+use super::place::Computer;
 use super::progress::{Counted, Progress};
 use super::source::Source;
 use super::{Console, Device, Input, Numbers, Output, Rules, Settings, Which, overrides};
@@ -86,27 +89,34 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
             Stage::Fragment => Pipeline::Fragment,
         },
     };
-    let gpu = super::open(&arguments.device, console)?;
-    let precision = match arguments.numbers.wanted(&settings) {
-        Some(precision) => precision,
-        None => {
+    let computer = Computer::open(&arguments.device.adapter, console)?;
+    let wanted = match (&computer, arguments.numbers.wanted(&settings)) {
+        (Computer::Adapter(gpu), None) => {
             let scenery = Scenery {
                 program: &source.program,
                 picture: index,
                 settings: &settings,
                 frame: &frame,
             };
-            chosen(&gpu, &scenery, &source, console)?
+            Some(chosen(gpu, &scenery, &source, console)?)
         }
+        (_, wanted) => wanted,
     };
-    let tier = super::tier(&gpu, precision)?;
+    let tier = computer.tier(arguments.numbers.precision, wanted)?;
     let scene = source.expect(source.program.scene_module(index, tier), console)?;
     let bytes = scene.pack_settings(&settings);
     frame.settings = &bytes;
-    if let Some(warning) = unresolved(picture, &frame, precision) {
+    if let Some(warning) = unresolved(picture, &frame, tier.precision) {
         console.warning(&warning);
     }
-    let metadata = metadata(&source, picture, &settings, &frame, precision, &gpu);
+    let metadata = metadata(
+        &source,
+        picture,
+        &settings,
+        &frame,
+        tier.precision,
+        &computer,
+    );
     let path = arguments
         .output
         .output
@@ -114,15 +124,13 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         .unwrap_or_else(|| PathBuf::from(format!("{}.png", source.stem)));
     let shown = name(&path);
     let mut progress = Progress::new(console);
-    let mut renderer = Renderer::new(&gpu, &scene)?;
+    let mut artist = Artist::new(&computer, &scene)?;
     image_file::write_png(&path, frame.size, &metadata, |sink| {
-        renderer.render(
-            &frame,
-            &mut Counted {
-                sink,
-                progress: &mut progress,
-            },
-        )
+        let mut sink = Counted {
+            sink,
+            progress: &mut progress,
+        };
+        artist.render(&frame, &settings, &mut sink)
     })
     .map_err(Failure::writing(&shown))?;
     progress.finish();
@@ -132,6 +140,37 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         progress.elapsed().as_secs_f64()
     ));
     Ok(())
+}
+
+/// What draws.
+pub(super) enum Artist {
+    Device(Box<Renderer>),
+    Processor(Box<Painter>),
+}
+
+impl Artist {
+    pub(super) fn new(computer: &Computer, scene: &SceneModule) -> Result<Self, Failure> {
+        Ok(match computer {
+            Computer::Adapter(gpu) => Self::Device(Box::new(Renderer::new(gpu, scene)?)),
+            Computer::Processor(arithmetic) => {
+                Self::Processor(Box::new(Painter::new(scene, *arithmetic)?))
+            }
+        })
+    }
+
+    pub(super) fn render(
+        &mut self,
+        frame: &Frame,
+        settings: &[SettingValue],
+        sink: &mut dyn RowSink,
+    ) -> Result<(), Error> {
+        match self {
+            Self::Device(renderer) => renderer.render(frame, sink),
+            Self::Processor(painter) => {
+                painter.render(frame, settings, &AtomicBool::new(false), sink)
+            }
+        }
+    }
 }
 
 /// What is seen: of a plane by the options, then by the settings; scenes of space have a camera in their settings.
@@ -214,7 +253,7 @@ fn metadata(
     settings: &[SettingValue],
     frame: &Frame,
     precision: Precision,
-    gpu: &Gpu,
+    computer: &Computer,
 ) -> Metadata {
     let [x, y] = frame.view.center;
     let Size { width, height } = frame.size;
@@ -247,7 +286,7 @@ fn metadata(
         ("Parameters", params.join("; ")),
         ("Settings", settings.join("; ")),
         ("Precision", precision.name().to_owned()),
-        ("Adapter", gpu.adapter().to_string()),
+        ("Adapter", computer.to_string()),
     ])
 }
 

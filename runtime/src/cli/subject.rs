@@ -6,6 +6,7 @@ use pullback_runtime::auto::Scenery;
 use pullback_runtime::{Frame, Gpu, Pipeline, Size, View, fill_in_scale};
 
 use super::failure::Failure;
+use super::place::Computer;
 use super::source::Source;
 use super::{Console, Input, Numbers, Rules, Settings, Which, overrides, render};
 
@@ -90,6 +91,20 @@ impl Subject {
             frame: &self.frame(&[]),
         };
         render::chosen(gpu, &scenery, &self.source, console)
+    }
+
+    /// The tier to draw with on whatever computes.
+    pub(super) fn tier(
+        &self,
+        numbers: Numbers,
+        computer: &Computer,
+        console: &Console,
+    ) -> Result<lower::Tier, Failure> {
+        let wanted = match computer {
+            Computer::Adapter(gpu) => Some(self.precision(numbers, gpu, console)?),
+            Computer::Processor(_) => numbers.wanted(&self.settings),
+        };
+        computer.tier(numbers.precision, wanted)
     }
 
     /// The scene's shader.

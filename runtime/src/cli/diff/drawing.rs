@@ -1,57 +1,39 @@
 //! Drawing one program twice.
 
+use std::convert::Infallible;
 use std::str::FromStr;
-use std::sync::atomic::AtomicBool;
 
 use clap::ValueEnum;
 use pullback_runtime::difference::Bitmap;
-use pullback_runtime::executor::{Arithmetic, Painter};
-use pullback_runtime::{AdapterChoice, Renderer};
 
 use super::{DiffArguments, Named};
 use crate::cli::failure::Failure;
+use crate::cli::place::{Computer, Place};
 use crate::cli::progress::{Counted, Progress};
 use crate::cli::subject::{Subject, Wanted};
-use crate::cli::{Console, Device, Input, Numbers, Tier, spelling};
+use crate::cli::render::Artist;
+use crate::cli::{Console, Input, Numbers, Tier, spelling};
 
 /// `gpu:accurate`: what draws a picture.
 #[derive(Clone, Debug)]
 pub(in crate::cli) struct Side {
-    machine: Machine,
+    place: Place,
     precision: Option<Tier>,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-enum Machine {
-    Adapter(AdapterChoice),
-    Processor(Arithmetic),
-}
-
-impl Machine {
-    fn named(text: &str) -> Self {
-        let all = [Arithmetic::Reference, Arithmetic::Ieee32];
-        match all.into_iter().find(|arithmetic| arithmetic.name() == text) {
-            Some(arithmetic) => Self::Processor(arithmetic),
-            None => Self::Adapter(text.parse().unwrap_or_default()),
-        }
-    }
 }
 
 impl FromStr for Side {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let (adapter, precision) = match text.rsplit_once(':') {
-            Some((adapter, word)) => (adapter, Some(tier(word)?)),
+        let (place, precision) = match text.rsplit_once(':') {
+            Some((place, word)) => (place, Some(tier(word)?)),
             None => (text, None),
         };
-        if adapter.is_empty() {
+        if place.is_empty() {
             return Err("write ADAPTER or ADAPTER:PRECISION, such as gpu:accurate".into());
         }
-        Ok(Self {
-            machine: Machine::named(adapter),
-            precision,
-        })
+        let Ok(place): Result<Place, Infallible> = place.parse();
+        Ok(Self { place, precision })
     }
 }
 
@@ -89,63 +71,48 @@ pub(super) fn both(arguments: &DiffArguments, console: &Console) -> Result<[Name
 }
 
 fn drawn(subject: &Subject, side: &Side, console: &Console) -> Result<Named, Failure> {
+    let computer = Computer::open(&side.place, console)?;
     let numbers = Numbers {
         precision: side.precision,
     };
+    let tier = subject.tier(numbers, &computer, console)?;
+    let scene = subject.scene(tier, console)?;
+    let bytes = scene.pack_settings(&subject.settings);
+    let frame = subject.frame(&bytes);
     let mut rows: Vec<u8> = Vec::new();
     let mut progress = Progress::new(console);
     let mut counted = Counted {
         sink: &mut rows,
         progress: &mut progress,
     };
-    let size = subject.frame(&[]).size;
-    let (precision, machine) = match &side.machine {
-        Machine::Adapter(adapter) => {
-            let device = Device {
-                adapter: adapter.clone(),
-            };
-            let gpu = crate::cli::open(&device, console)?;
-            let precision = subject.precision(numbers, &gpu, console)?;
-            let scene = subject.scene(crate::cli::tier(&gpu, precision)?, console)?;
-            let bytes = scene.pack_settings(&subject.settings);
-            let frame = subject.frame(&bytes);
-            Renderer::new(&gpu, &scene)?.render(&frame, &mut counted)?;
-            (precision, gpu.adapter().to_string())
-        }
-        Machine::Processor(arithmetic) => {
-            let precision = numbers.without_view(&subject.settings)?;
-            let scene = subject.scene(precision.into(), console)?;
-            let painter = Painter::new(&scene, *arithmetic)?;
-            let never = AtomicBool::new(false);
-            let frame = subject.frame(&[]);
-            painter.render(&frame, &subject.settings, &never, &mut counted)?;
-            (precision, arithmetic.name().to_owned())
-        }
-    };
+    Artist::new(&computer, &scene)?.render(&frame, &subject.settings, &mut counted)?;
     Ok(Named {
-        picture: Bitmap::from_rgba(size, &rows)?,
-        name: format!("{} on {machine}", precision.name()),
+        picture: Bitmap::from_rgba(frame.size, &rows)?,
+        name: format!("{} on {computer}", tier.precision.name()),
     })
 }
 
 #[cfg(test)]
 mod tests {
+    use pullback_runtime::AdapterChoice;
+    use pullback_runtime::executor::Arithmetic;
+
     use super::*;
 
     #[test]
     fn sides() {
-        let check = |text: &str, machine: Machine, precision: Option<Tier>| {
+        let check = |text: &str, place: Place, precision: Option<Tier>| {
             let side: Side = text.parse().unwrap();
-            assert_eq!((side.machine, side.precision), (machine, precision), "{text}");
+            assert_eq!((side.place, side.precision), (place, precision), "{text}");
         };
-        check("gpu", Machine::Adapter(AdapterChoice::Gpu), None);
-        let software = Machine::Adapter(AdapterChoice::Software);
+        check("gpu", Place::Adapter(AdapterChoice::Gpu), None);
+        let software = Place::Adapter(AdapterChoice::Software);
         check("software:fast", software, Some(Tier::Fast));
         let named = AdapterChoice::Named("Radeon RX".into());
-        check("Radeon RX:auto", Machine::Adapter(named), Some(Tier::Auto));
-        let reference = Machine::Processor(Arithmetic::Reference);
+        check("Radeon RX:auto", Place::Adapter(named), Some(Tier::Auto));
+        let reference = Place::Processor(Arithmetic::Reference);
         check("reference", reference, None);
-        let exact = Machine::Processor(Arithmetic::Ieee32);
+        let exact = Place::Processor(Arithmetic::Ieee32);
         check("ieee32:extended", exact, Some(Tier::Extended));
         for (bad, expected) in [
             ("gpu:acurate", "did you mean `accurate`"),
