@@ -143,10 +143,10 @@ fn a_removed_guard_is_found() {
     assert_eq!((values[1].numbers(), ulps), (&[-0.5][..], f64::INFINITY));
 }
 
-/// A product that is subnormal becomes zero.
+/// A product that is subnormal becomes zero, and is made large behind that.
 #[test]
 fn a_flushed_subnormal_is_found() {
-    let subject = Subject::new("x y + sin(x)");
+    let subject = Subject::new("x y 1e30 + y");
     let (site, found) = subject.found(&[1.5e-20, 2.5e-20], |module| {
         change(function(module, "evaluate"), |expression| match expression {
             &Expression::Binary {
