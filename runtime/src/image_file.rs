@@ -124,7 +124,7 @@ impl Write for Watched<'_> {
     }
 }
 
-fn io_error(error: png::EncodingError) -> Error {
+pub(crate) fn io_error(error: png::EncodingError) -> Error {
     Error::Io(match error {
         png::EncodingError::IoError(error) => error,
         other => io::Error::other(other),

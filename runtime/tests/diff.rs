@@ -35,9 +35,14 @@ fn two_files() {
     let path = |name: &str| folder.path().join(name);
     write(&path("a.png"), SIZE, |_, _| [100; 3]);
     write(&path("b.png"), SIZE, |x, y| {
-        if (x, y) == (7, 9) { [255, 100, 100] } else { [100; 3] }
+        if (x, y) == (7, 9) {
+            [255, 100, 100]
+        } else {
+            [100; 3]
+        }
     });
-    let (code, table, errors) = pullback(folder.path(), &["diff", "a.png", "b.png", "-o", "heat.png"]);
+    let (code, table, errors) =
+        pullback(folder.path(), &["diff", "a.png", "b.png", "-o", "heat.png"]);
     assert_eq!(code, 0, "{errors}");
     for expected in [
         "40x30 pixels",
@@ -55,7 +60,10 @@ fn two_files() {
     let brightest = heat.pixels().iter().map(light).max().unwrap();
     assert_eq!(light(&heat.pixels()[9 * 40 + 7]), brightest);
     assert!(brightest > 100);
-    let (_, json, _) = pullback(folder.path(), &["diff", "a.png", "a.png", "--format", "json"]);
+    let (_, json, _) = pullback(
+        folder.path(),
+        &["diff", "a.png", "a.png", "--format", "json"],
+    );
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["flip"]["max"], 0.0);
     assert_eq!(json["differing"], 0.0);
@@ -77,7 +85,9 @@ fn what_is_wrong_is_said() {
     let whole = std::fs::read(path("b.png")).unwrap();
     std::fs::write(path("half.png"), &whole[..whole.len() / 2]).unwrap();
     let check = |arguments: &str, code: i32, message: &str| {
-        let arguments: Vec<&str> = std::iter::once("diff").chain(arguments.split(' ')).collect();
+        let arguments: Vec<&str> = std::iter::once("diff")
+            .chain(arguments.split(' '))
+            .collect();
         let (found, _, errors) = pullback(folder.path(), &arguments);
         assert_eq!(found, code, "{arguments:?}: {errors}");
         assert!(errors.contains(message), "{arguments:?}: {errors}");
@@ -103,12 +113,16 @@ fn what_is_wrong_is_said() {
 #[test]
 fn a_formula_drawn_twice() {
     let folder = tempfile::tempdir().unwrap();
-    let arguments = "diff x^2-y --a ieee32 --b reference --size 64x48 --format json --threshold flip=0.01";
+    let arguments =
+        "diff x^2-y --a ieee32 --b reference --size 64x48 --format json --threshold flip=0.01";
     let arguments: Vec<&str> = arguments.split(' ').collect();
     let (code, json, errors) = pullback(folder.path(), &arguments);
     assert_eq!(code, 0, "{errors}");
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(json["a"], "accurate on the processor, in exact single precision");
+    assert_eq!(
+        json["a"],
+        "accurate on the processor, in exact single precision"
+    );
     assert_eq!(json["b"], "double on the processor, in f64");
     assert_eq!(json["thresholds"][0]["holds"], true);
     let worst = json["linear"]["red"]["max"].as_f64().unwrap();

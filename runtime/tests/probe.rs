@@ -36,7 +36,14 @@ impl Subject {
     }
 
     fn on_cpu(&self, arithmetic: Arithmetic, traced: &Traced, row: &[f64]) -> Trace {
-        row_on_cpu(arithmetic, &self.module, traced, Surroundings::default(), row).unwrap()
+        row_on_cpu(
+            arithmetic,
+            &self.module,
+            traced,
+            Surroundings::default(),
+            row,
+        )
+        .unwrap()
     }
 
     fn on_gpu(&self, gpu: &Gpu, traced: &Traced, row: &[f64]) -> Trace {
@@ -118,18 +125,21 @@ fn a_wrong_derivative_rule_is_found() {
 fn a_removed_guard_is_found() {
     let subject = Subject::new("a + y where a = if x > 0 then log(x) else x");
     let (site, found) = subject.found(&[-0.5, 2.0], |module| {
-        change(function(module, "evaluate"), |expression| match expression {
-            &Expression::Select {
-                condition,
-                accept,
-                reject,
-            } if accept != reject => Some(Expression::Select {
-                condition,
-                accept,
-                reject: accept,
-            }),
-            _ => None,
-        });
+        change(
+            function(module, "evaluate"),
+            |expression| match expression {
+                &Expression::Select {
+                    condition,
+                    accept,
+                    reject,
+                } if accept != reject => Some(Expression::Select {
+                    condition,
+                    accept,
+                    reject: accept,
+                }),
+                _ => None,
+            },
+        );
     });
     assert_eq!(site.name, "a");
     assert_eq!(
@@ -148,18 +158,21 @@ fn a_removed_guard_is_found() {
 fn a_flushed_subnormal_is_found() {
     let subject = Subject::new("x y 1e30 + y");
     let (site, found) = subject.found(&[1.5e-20, 2.5e-20], |module| {
-        change(function(module, "evaluate"), |expression| match expression {
-            &Expression::Binary {
-                op: BinaryOperator::Multiply,
-                left,
-                ..
-            } => Some(Expression::Binary {
-                op: BinaryOperator::Subtract,
-                left,
-                right: left,
-            }),
-            _ => None,
-        });
+        change(
+            function(module, "evaluate"),
+            |expression| match expression {
+                &Expression::Binary {
+                    op: BinaryOperator::Multiply,
+                    left,
+                    ..
+                } => Some(Expression::Binary {
+                    op: BinaryOperator::Subtract,
+                    left,
+                    right: left,
+                }),
+                _ => None,
+            },
+        );
     });
     assert_eq!(site.text, "x * y");
     let Parting::Value { values, .. } = found else {
@@ -203,7 +216,11 @@ fn the_gpu_and_exact_binary32_agree() {
             let found = subject.on_gpu(&gpu, &subject.traced(Recorders::Writing), &row);
             assert!(exact.events.len() > 5, "{text}");
             // drivers contract and reorder, by one rounding or two
-            assert_eq!(parting(&sites.sites, [&found, &exact], 4.0), None, "{text} at {row:?}");
+            assert_eq!(
+                parting(&sites.sites, [&found, &exact], 4.0),
+                None,
+                "{text} at {row:?}"
+            );
         }
     }
 }
@@ -212,7 +229,14 @@ fn the_gpu_and_exact_binary32_agree() {
 fn every_tier_tells_its_values() {
     let folder = tempfile::tempdir().unwrap();
     for tier in ["fast", "accurate", "extended", "double"] {
-        let arguments = ["probe", "√(x^2 + 1) - x", "--at", "3", "--on", "ieee32,reference"];
+        let arguments = [
+            "probe",
+            "√(x^2 + 1) - x",
+            "--at",
+            "3",
+            "--on",
+            "ieee32,reference",
+        ];
         let arguments = [&arguments[..], &["--precision", tier, "--all"]].concat();
         let (code, table, errors) = pullback(folder.path(), &arguments);
         assert_eq!(code, 0, "{errors}");
@@ -229,7 +253,11 @@ fn pixels_of_every_scene() {
         ("x^2 + y^2 + z^2 - 1", "field_ray"),
     ] {
         let arguments = ["probe", formula, "--pixel", "30,20", "--size", "64x48"];
-        let arguments = [&arguments[..], &["--on", "ieee32,reference", "--format", "json"]].concat();
+        let arguments = [
+            &arguments[..],
+            &["--on", "ieee32,reference", "--format", "json"],
+        ]
+        .concat();
         let (code, json, errors) = pullback(folder.path(), &arguments);
         assert_eq!(code, 0, "{errors}");
         let json: serde_json::Value = serde_json::from_str(&json).unwrap();
@@ -237,8 +265,14 @@ fn pixels_of_every_scene() {
         let told = |name: &str| values.iter().any(|value| value["function"] == name);
         assert!(told("shade") && told(expected), "{formula}");
         let pixel = &values[0];
-        assert_eq!((&pixel["name"], &pixel["what"]), (&"pixel".into(), &"argument".into()));
-        assert_eq!(pixel["shown"][0]["values"][1], serde_json::json!([30.5, 20.5]));
+        assert_eq!(
+            (&pixel["name"], &pixel["what"]),
+            (&"pixel".into(), &"argument".into())
+        );
+        assert_eq!(
+            pixel["shown"][0]["values"][1],
+            serde_json::json!([30.5, 20.5])
+        );
         assert_eq!(json["machines"].as_array().unwrap().len(), 2);
     }
 }
@@ -250,8 +284,19 @@ fn odd_pixels_are_found() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let arguments = ["probe", "y + log(x)", "--nan", "--size", "65x48", "--adapter", "software"];
-    let (code, json, errors) = pullback(folder.path(), &[&arguments[..], &["--format", "json"]].concat());
+    let arguments = [
+        "probe",
+        "y + log(x)",
+        "--nan",
+        "--size",
+        "65x48",
+        "--adapter",
+        "software",
+    ];
+    let (code, json, errors) = pullback(
+        folder.path(),
+        &[&arguments[..], &["--format", "json"]].concat(),
+    );
     assert_eq!(code, 0, "{errors}");
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["nan"]["pixels"], 32 * 48);
@@ -263,13 +308,27 @@ fn odd_pixels_are_found() {
         assert_eq!(operation["span"]["start"], 4);
         assert_eq!(operation["pixels"], json[kind]["traced"]);
     }
-    assert_eq!(json["infinite"]["operations"][0]["result"], serde_json::json!(["-inf"]));
+    assert_eq!(
+        json["infinite"]["operations"][0]["result"],
+        serde_json::json!(["-inf"])
+    );
     let (_, text, _) = pullback(folder.path(), &arguments);
     assert!(text.contains("`log(x)` in field_grad"), "{text}");
     // what is not chosen is not to blame
     let formula = "(if x > 0 then log(x) else x) + √y";
-    let arguments = ["probe", formula, "--nan", "--size", "64x48", "--adapter", "software"];
-    let (_, json, _) = pullback(folder.path(), &[&arguments[..], &["--format", "json"]].concat());
+    let arguments = [
+        "probe",
+        formula,
+        "--nan",
+        "--size",
+        "64x48",
+        "--adapter",
+        "software",
+    ];
+    let (_, json, _) = pullback(
+        folder.path(),
+        &[&arguments[..], &["--format", "json"]].concat(),
+    );
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["nan"]["pixels"], 64 * 24);
     assert_eq!(json["nan"]["operations"].as_array().unwrap().len(), 1);

@@ -66,7 +66,10 @@ fn pages_hold_what_commands_print() {
         if std::env::var_os("BLESS").is_some() {
             std::fs::write(&path, &now).unwrap();
         } else {
-            assert!(page == now, "{name} is not current; BLESS=1 rewrites it:\n{now}");
+            assert!(
+                page == now,
+                "{name} is not current; BLESS=1 rewrites it:\n{now}"
+            );
         }
     }
 }

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use super::NoDerivative;
 use super::activity::activity;
 use super::extend::{extend, states};
-use super::rules::{int_power_partial, is_zero, sum, takes_second, zero_like};
+use super::rules::{int_power_partial, is_zero, quotient_correction, sum, takes_second, zero_like};
 use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
@@ -118,13 +118,13 @@ fn structural(
         }
         // (1/b)' = -(1/b) ((1/b) b'), without the square, which underflows early
         (Prim::Div, &[one, _], &[None, Some(t)]) if g.as_real(one) == Some(1.0) => {
-            let once = g.mul(value, t);
+            let once = quotient_correction(g, value, node.args[1], t);
             let product = g.mul(value, once);
             Some(g.neg(product))
         }
         // (a/b)' = (a' - (a/b) b') / b
         (Prim::Div, &[_, b], &[s, t]) => {
-            let correction = t.map(|t| g.mul(value, t));
+            let correction = t.map(|t| quotient_correction(g, value, b, t));
             let numerator = match (s, correction) {
                 (Some(s), Some(c)) => g.sub(s, c),
                 (Some(s), None) => s,

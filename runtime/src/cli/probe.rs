@@ -206,7 +206,10 @@ mod tests {
         for bad in ["", "3", "3,", "-1,2", "1.5,2", "1,2,3"] {
             assert!(pixel(bad).is_err(), "{bad}");
         }
-        assert_eq!(coordinates("1,-2e-3, 4"), Ok(Coordinates(vec![1.0, -2e-3, 4.0])));
+        assert_eq!(
+            coordinates("1,-2e-3, 4"),
+            Ok(Coordinates(vec![1.0, -2e-3, 4.0]))
+        );
         for bad in ["", "x", "1,nan", "1,,2", "1,2,3,4,5"] {
             assert!(coordinates(bad).is_err(), "{bad}");
         }

@@ -14,6 +14,7 @@ use pullback_runtime::{
     Error, Frame, Gpu, Metadata, Pipeline, Renderer, RowSink, Size, View, fill_in_scale, image_file,
 };
 
+use super::animate::{Animation, Reel};
 use super::failure::Failure;
 use super::place::Computer;
 use super::progress::{Counted, Progress};
@@ -53,6 +54,8 @@ pub(super) struct RenderArguments {
     numbers: Numbers,
     #[command(flatten)]
     rules: Rules,
+    #[command(flatten)]
+    animation: Animation,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -125,6 +128,21 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     let shown = name(&path);
     let mut progress = Progress::new(console);
     let mut artist = Artist::new(&computer, &scene)?;
+    if let Some(frames) = arguments.animation.frames(&path)? {
+        let reel = Reel {
+            program: &source.program,
+            scene: &scene,
+            settings: &settings,
+            still: frame,
+        };
+        let output = (path.as_path(), &metadata);
+        arguments
+            .animation
+            .write(&reel, frames, &mut artist, output, &mut progress)?;
+        progress.finish();
+        console.note(&drawn(&shown, arguments.size, Some(frames), &progress));
+        return Ok(());
+    }
     image_file::write_png(&path, frame.size, &metadata, |sink| {
         let mut sink = Counted {
             sink,
@@ -134,11 +152,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     })
     .map_err(Failure::writing(&shown))?;
     progress.finish();
-    let Size { width, height } = frame.size;
-    console.note(&format!(
-        "{shown}: {width}x{height}, {:.2} s",
-        progress.elapsed().as_secs_f64()
-    ));
+    console.note(&drawn(&shown, frame.size, None, &progress));
     Ok(())
 }
 
@@ -171,6 +185,14 @@ impl Artist {
             }
         }
     }
+}
+
+/// What has been written, and how long it took.
+fn drawn(name: &str, size: Size, frames: Option<u32>, progress: &Progress) -> String {
+    let Size { width, height } = size;
+    let count = frames.map_or(String::new(), |frames| format!("{frames} pictures of "));
+    let seconds = progress.elapsed().as_secs_f64();
+    format!("{name}: {count}{width}x{height}, {seconds:.2} s")
 }
 
 /// What is seen: of a plane by the options, then by the settings; scenes of space have a camera in their settings.

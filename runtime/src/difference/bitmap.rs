@@ -99,7 +99,11 @@ fn pixels(size: Size) -> u64 {
 
 /// Red, green and blue of pixels of so many samples: grey, or colour, and alpha behind that in even numbers.
 fn opaque(data: Vec<u8>, samples: usize) -> io::Result<Vec<u8>> {
-    if samples.is_multiple_of(2) && data.chunks_exact(samples).any(|p| p[samples - 1] != u8::MAX) {
+    if samples.is_multiple_of(2)
+        && data
+            .chunks_exact(samples)
+            .any(|p| p[samples - 1] != u8::MAX)
+    {
         return Err(invalid(
             "has transparent pixels; put it on a background first".into(),
         ));
@@ -123,7 +127,10 @@ fn unreadable(error: png::DecodingError) -> io::Error {
         png::DecodingError::IoError(_) => invalid("the file ends too early".into()),
         other => {
             let reason = other.to_string();
-            invalid(format!("not a readable PNG: {}", reason.trim_end_matches('.')))
+            invalid(format!(
+                "not a readable PNG: {}",
+                reason.trim_end_matches('.')
+            ))
         }
     }
 }

@@ -83,11 +83,7 @@ impl Perceptual {
     ///
     /// # Errors
     /// [`Error::Io`]; there is no file then.
-    pub fn write_heat_map(
-        &self,
-        path: &std::path::Path,
-        metadata: &Metadata,
-    ) -> Result<(), Error> {
+    pub fn write_heat_map(&self, path: &std::path::Path, metadata: &Metadata) -> Result<(), Error> {
         let palette = nv_flip::magma_lut().to_vec();
         let palette = palette.as_chunks::<3>().0;
         image_file::write_png(path, self.size, metadata, |sink| {
@@ -125,7 +121,11 @@ fn by_stripes(
             scope.spawn(move || {
                 loop {
                     let k = next.fetch_add(1, Ordering::Relaxed);
-                    if k >= count || sender.send((k, stripe(truth, test, k * height, height))).is_err() {
+                    if k >= count
+                        || sender
+                            .send((k, stripe(truth, test, k * height, height)))
+                            .is_err()
+                    {
                         break;
                     }
                 }
@@ -174,7 +174,11 @@ mod tests {
 
     /// A pattern of all frequencies, in colour.
     fn waves(x: u32, y: u32) -> [u8; 3] {
-        [(x * x + 3 * y) as u8, (x * y / 7) as u8, (5 * y * y + x) as u8]
+        [
+            (x * x + 3 * y) as u8,
+            (x * y / 7) as u8,
+            (5 * y * y + x) as u8,
+        ]
     }
 
     fn compared(a: &Bitmap, b: &Bitmap) -> Perceptual {
@@ -225,7 +229,13 @@ mod tests {
     #[test]
     fn the_worst_pixel_is_named() {
         let a = picture(64, 48, |_, _| [100; 3]);
-        let b = picture(64, 48, |x, y| if (x, y) == (50, 7) { [200; 3] } else { [100; 3] });
+        let b = picture(64, 48, |x, y| {
+            if (x, y) == (50, 7) {
+                [200; 3]
+            } else {
+                [100; 3]
+            }
+        });
         let found = compared(&a, &b);
         assert_eq!(found.worst, [50, 7]);
         assert!(found.max > found.p999 && found.p999 >= found.mean);

@@ -6,12 +6,12 @@ use std::thread::available_parallelism;
 use pullback_compiler::EvalModule;
 use pullback_compiler::lower::Format;
 
-use super::{Arithmetic, Observer};
 use super::fault::Fault;
 use super::lanes::LANES;
 use super::machine::{Limits, MAX_STEPS, Machine};
 use super::painter::wide_word;
 use super::program::{Buffer, Options, Program, Start};
+use super::{Arithmetic, Observer};
 use crate::Error;
 use crate::evaluate::Surroundings;
 use crate::pool::spread;

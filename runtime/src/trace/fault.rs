@@ -18,7 +18,11 @@ pub struct Fault {
 /// formula gives.
 #[must_use]
 pub fn first_fault(sites: &[Site], trace: &Trace) -> Option<Fault> {
-    let odd: Vec<bool> = trace.events.iter().map(|event| !event.value.is_finite()).collect();
+    let odd: Vec<bool> = trace
+        .events
+        .iter()
+        .map(|event| !event.value.is_finite())
+        .collect();
     let relevant = relevant(sites, &trace.events, &odd);
     let mut latest: Vec<Option<Value>> = vec![None; sites.len()];
     for (event, is_relevant) in trace.events.iter().zip(relevant) {

@@ -1,7 +1,7 @@
 //! The buffers of one invocation.
 
-use pullback_compiler::lower::Tier;
 use pullback_compiler::EvalModule;
+use pullback_compiler::lower::Tier;
 
 use crate::evaluate::Surroundings;
 use crate::render::view_uniform;

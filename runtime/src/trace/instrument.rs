@@ -297,9 +297,7 @@ impl<'m, 's> Instrument<'m, 's> {
 
     fn arguments(&mut self, out: &mut Block) {
         for (k, argument) in (0..).zip(&self.before.arguments) {
-            let is_it = |(_, e): &(Handle<Expression>, &Expression)| {
-                matches!(e, Expression::FunctionArgument(n) if *n == k)
-            };
+            let is_it = |(_, e): &(Handle<Expression>, &Expression)| matches!(e, Expression::FunctionArgument(n) if *n == k);
             // one that is not there is not used
             let Some((value, _)) = self.before.expressions.iter().find(is_it) else {
                 continue;
@@ -429,7 +427,9 @@ impl<'m, 's> Instrument<'m, 's> {
             base = match self.before.expressions[base] {
                 Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => base,
                 // the compiler's own have no name
-                Expression::LocalVariable(v) if self.before.local_variables[v].name.is_some() => break,
+                Expression::LocalVariable(v) if self.before.local_variables[v].name.is_some() => {
+                    break;
+                }
                 _ => return,
             };
         }
@@ -505,7 +505,8 @@ impl<'m, 's> Instrument<'m, 's> {
             TypeResolution::Value(inner) => inner,
         };
         // templates hand over and take single precision
-        let wide = !matches!(told.what, What::Argument | What::Result) || told.name.starts_with('[');
+        let wide =
+            !matches!(told.what, What::Argument | What::Result) || told.name.starts_with('[');
         for part in self.parts(ty, wide) {
             let Some(&recorder) = self.scope.recorders.get(part.shape.recorder()) else {
                 continue;
@@ -579,9 +580,8 @@ impl<'m, 's> Instrument<'m, 's> {
     /// The numbers that a value of a type is made of, at most [`MAX_PARTS`]. `wide`: whether reals of generated functions
     /// may be pairs here.
     fn parts(&self, ty: &TypeInner, wide: bool) -> Vec<Part> {
-        let pairs = wide
-            && self.scope.format == Format::Pair
-            && self.scope.detail == Detail::Operations;
+        let pairs =
+            wide && self.scope.format == Format::Pair && self.scope.detail == Detail::Operations;
         let mut parts = Vec::new();
         let mut stack = vec![(String::new(), Vec::new(), ty)];
         while let Some((name, path, ty)) = stack.pop() {
@@ -622,7 +622,9 @@ impl<'m, 's> Instrument<'m, 's> {
 fn shape(ty: &TypeInner, pairs: bool) -> Option<Shape> {
     match *ty {
         TypeInner::Scalar(scalar) => scalar_shape(scalar.kind, scalar.width),
-        TypeInner::Vector { size, scalar } if scalar.kind == ScalarKind::Float && scalar.width == 4 => {
+        TypeInner::Vector { size, scalar }
+            if scalar.kind == ScalarKind::Float && scalar.width == 4 =>
+        {
             let count = size as u8;
             Some(if pairs && count == 2 {
                 Shape::Pair

@@ -50,7 +50,10 @@ pub fn traced_scene(
 ) -> Result<Traced, Error> {
     let template = picture.scene.module();
     let own = |name: &str| {
-        let mut functions = template.functions.iter().filter(|(_, f)| f.name.as_deref() == Some(name));
+        let mut functions = template
+            .functions
+            .iter()
+            .filter(|(_, f)| f.name.as_deref() == Some(name));
         functions.any(|(_, f)| !pullback_compiler::link::is_stub(f))
     };
     let copies = copies(&scene.module);
@@ -76,12 +79,21 @@ pub fn traced_evaluation(
     source: &str,
     recorders: Recorders,
 ) -> Result<Traced, Error> {
-    let mut traced = Traced::new(&module.module, recorders, module.tier, source, |name| match name {
-        "evaluate" => Detail::Operations,
-        _ => Detail::Nothing,
-    })?;
+    let mut traced = Traced::new(
+        &module.module,
+        recorders,
+        module.tier,
+        source,
+        |name| match name {
+            "evaluate" => Detail::Operations,
+            _ => Detail::Nothing,
+        },
+    )?;
     for site in &mut traced.sites {
-        let column = site.name.strip_prefix('[').and_then(|n| n.strip_suffix(']'));
+        let column = site
+            .name
+            .strip_prefix('[')
+            .and_then(|n| n.strip_suffix(']'));
         let column = column.and_then(|n| n.parse::<usize>().ok());
         if let (What::Result, Some(k)) = (site.what, column)
             && let Some(name) = module.outputs.get(k)

@@ -79,7 +79,10 @@ pub(super) fn taken(
             arg2,
             arg3,
             ..
-        } => [Some(arg), arg1, arg2, arg3].into_iter().flatten().collect(),
+        } => [Some(arg), arg1, arg2, arg3]
+            .into_iter()
+            .flatten()
+            .collect(),
         Expression::Select {
             condition,
             accept,
@@ -100,7 +103,11 @@ pub(super) fn taken(
     }
 }
 
-fn chosen(function: &Function, known: &Known, [condition, accept, reject]: [Handle<Expression>; 3]) -> Taken {
+fn chosen(
+    function: &Function,
+    known: &Known,
+    [condition, accept, reject]: [Handle<Expression>; 3],
+) -> Taken {
     let mut operands = Vec::new();
     let mut add = |value| {
         let _ = resolve(function, known, value, &[], DEPTH, &mut operands);

@@ -42,7 +42,11 @@ impl Parting {
 #[must_use]
 pub fn parting(sites: &[Site], traces: [&Trace; 2], ulps: f64) -> Option<Parting> {
     let [a, b] = traces.map(|trace| trace.events.as_slice());
-    let together = a.iter().zip(b).take_while(|(x, y)| x.site == y.site).count();
+    let together = a
+        .iter()
+        .zip(b)
+        .take_while(|(x, y)| x.site == y.site)
+        .count();
     let distances: Vec<f64> = a
         .iter()
         .zip(b)
@@ -63,8 +67,8 @@ pub fn parting(sites: &[Site], traces: [&Trace; 2], ulps: f64) -> Option<Parting
         });
     }
     let is_cut = traces.iter().any(|trace| trace.is_cut);
-    let ends = together == a.len() && together == b.len()
-        || is_cut && together == a.len().min(b.len());
+    let ends =
+        together == a.len() && together == b.len() || is_cut && together == a.len().min(b.len());
     (!ends).then(|| Parting::Way {
         event: together,
         site: together.checked_sub(1).map_or(0, |last| b[last].site),
@@ -216,16 +220,9 @@ mod tests {
         check(f64::INFINITY, 1e39, 0.0);
         check(f64::NEG_INFINITY, 1e39, f64::INFINITY);
         check(f64::NAN, 1.0, f64::INFINITY);
-        let wide = distance(
-            Shape::Double,
-            real(1.0 + 2f64.powi(-52)),
-            real(1.0),
-        );
+        let wide = distance(Shape::Double, real(1.0 + 2f64.powi(-52)), real(1.0));
         assert_eq!(wide, 1.0);
-        assert_eq!(
-            distance(Shape::Truth, real(1.0), real(0.0)),
-            f64::INFINITY
-        );
+        assert_eq!(distance(Shape::Truth, real(1.0), real(0.0)), f64::INFINITY);
         let vector = distance(
             Shape::Single(2),
             Value::new(&[1.0, 2.0 + 4.0 * ulp]),

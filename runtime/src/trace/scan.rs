@@ -34,7 +34,13 @@ impl Oddities {
 
     fn places(&self, wanted: u8) -> impl Iterator<Item = [u32; 2]> + '_ {
         let width = self.size.width.max(1) as usize;
-        let kind = |flags: u8| if flags & NAN == 0 { flags & INFINITE } else { NAN };
+        let kind = |flags: u8| {
+            if flags & NAN == 0 {
+                flags & INFINITE
+            } else {
+                NAN
+            }
+        };
         let found = self.flags.iter().enumerate();
         let found = found.filter(move |&(_, &flags)| kind(flags) == wanted);
         found.map(move |(at, _)| [(at % width) as u32, (at / width) as u32])
@@ -51,13 +57,19 @@ pub fn scan(
     frame: &Frame,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Oddities, Error> {
-    let traced = Traced::with_recorders(&scene.module, (SCAN, Entry::Recorders), scene.tier, "", |name| {
-        if DEMANDS.contains(&name) {
-            Detail::Result
-        } else {
-            Detail::Nothing
-        }
-    })?;
+    let traced = Traced::with_recorders(
+        &scene.module,
+        (SCAN, Entry::Recorders),
+        scene.tier,
+        "",
+        |name| {
+            if DEMANDS.contains(&name) {
+                Detail::Result
+            } else {
+                Detail::Nothing
+            }
+        },
+    )?;
     let mut scene = scene.clone();
     (scene.module, scene.info) = (traced.module, traced.info);
     let frame = Frame {

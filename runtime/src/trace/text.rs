@@ -1,6 +1,8 @@
 //! Operations of a shader, written as people write them.
 
-use naga::{BinaryOperator, Expression, Function, Handle, Literal, Module, Statement, UnaryOperator};
+use naga::{
+    BinaryOperator, Expression, Function, Handle, Literal, Module, Statement, UnaryOperator,
+};
 use pullback_compiler::table::{self, Gpu};
 use rustc_hash::FxHashMap;
 
@@ -47,7 +49,9 @@ impl<'m> Writer<'m> {
         let place = |handle| self.function.expressions.get_span(handle).to_range();
         let written = self.source.get(place(operand)?)?;
         let is_name = written.starts_with(char::is_alphabetic)
-            && written.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '.'));
+            && written
+                .chars()
+                .all(|c| c.is_alphanumeric() || matches!(c, '_' | '.'));
         (is_name && place(of) != place(operand)).then_some(written)
     }
 
@@ -127,12 +131,19 @@ impl<'m> Writer<'m> {
             } => {
                 let rest = [arg1, arg2, arg3].into_iter().flatten();
                 let all: Vec<_> = std::iter::once(arg).chain(rest).collect();
-                format!("{}({})", camel(&format!("{fun:?}")), self.list(handle, &all, depth))
+                format!(
+                    "{}({})",
+                    camel(&format!("{fun:?}")),
+                    self.list(handle, &all, depth)
+                )
             }
             Expression::CallResult(function) => {
                 let name = self.module.functions[function].name.as_deref();
                 let name = called(name.unwrap_or_default());
-                format!("{name}({})", self.list(handle, self.arguments(handle), depth))
+                format!(
+                    "{name}({})",
+                    self.list(handle, self.arguments(handle), depth)
+                )
             }
             Expression::Select {
                 condition,
@@ -148,7 +159,11 @@ impl<'m> Writer<'m> {
                 if let Some(text) = self.half(base, index, depth) {
                     return text;
                 }
-                format!("{}{}", self.factor(handle, base, depth), self.member(base, index))
+                format!(
+                    "{}{}",
+                    self.factor(handle, base, depth),
+                    self.member(base, index)
+                )
             }
             Expression::Access { base, index } => format!(
                 "{}[{}]",
@@ -194,9 +209,7 @@ impl<'m> Writer<'m> {
     fn member(&self, base: Handle<Expression>, index: u32) -> String {
         let place = index as usize;
         let global = match self.function.expressions[base] {
-            Expression::GlobalVariable(variable) => {
-                Some(self.module.global_variables[variable].ty)
-            }
+            Expression::GlobalVariable(variable) => Some(self.module.global_variables[variable].ty),
             _ => None,
         };
         if let Some(naga::TypeInner::Struct { members, .. }) =

@@ -10,8 +10,8 @@ use super::{DiffArguments, Named};
 use crate::cli::failure::Failure;
 use crate::cli::place::{Computer, Place};
 use crate::cli::progress::{Counted, Progress};
-use crate::cli::subject::{Subject, Wanted};
 use crate::cli::render::Artist;
+use crate::cli::subject::{Subject, Wanted};
 use crate::cli::{Console, Input, Numbers, Tier, spelling};
 
 /// `gpu:accurate`: what draws a picture.
@@ -45,7 +45,10 @@ fn tier(word: &str) -> Result<Tier, String> {
             .collect();
         match spelling::nearest(word, names.iter().map(String::as_str)) {
             Some(known) => format!("there is no precision `{word}`; did you mean `{known}`?"),
-            None => format!("there is no precision `{word}`; there are {}", names.join(", ")),
+            None => format!(
+                "there is no precision `{word}`; there are {}",
+                names.join(", ")
+            ),
         }
     })
 }

@@ -49,10 +49,7 @@ impl<'a> Report<'a> {
         } = self.found;
         writeln!(out, "a  {}\nb  {}", self.a, self.b)?;
         writeln!(out, "   {}x{} pixels\n", size.width, size.height)?;
-        writeln!(
-            out,
-            "linear light, of 1      red      green       blue"
-        )?;
+        writeln!(out, "linear light, of 1      red      green       blue")?;
         let rows: [(&str, fn(&Channel) -> f64); 4] = [
             ("greatest", |c| c.max),
             ("mean", |c| c.mean),

@@ -100,7 +100,10 @@ impl FromStr for Threshold {
                 }
             }
         })?;
-        let limit = limit.parse().ok().filter(|l: &f64| l.is_finite() && *l >= 0.0);
+        let limit = limit
+            .parse()
+            .ok()
+            .filter(|l: &f64| l.is_finite() && *l >= 0.0);
         let limit = limit.ok_or("the limit must be a number from 0")?;
         Ok(Self { metric, limit })
     }

@@ -61,7 +61,10 @@ mod tests {
         assert_eq!(real(f64::NEG_INFINITY), "-inf");
         assert_eq!(real(1e300), "1e300");
         assert_eq!(written(Shape::Truth, Value::new(&[1.0])), "true");
-        assert_eq!(written(Shape::Single(2), Value::new(&[1.0, 2.5])), "(1, 2.5)");
+        assert_eq!(
+            written(Shape::Single(2), Value::new(&[1.0, 2.5])),
+            "(1, 2.5)"
+        );
         assert_eq!(
             [0.0, 0.5, 25.0, 3e7, f64::INFINITY].map(units),
             ["0", "0.50", "25", "3e7", "∞"]

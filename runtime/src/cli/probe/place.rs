@@ -62,7 +62,9 @@ impl Place<'_> {
             let trace = match (machine, gpu) {
                 (Machine::Gpu, None) => continue,
                 (Machine::Gpu, Some(gpu)) => self.on_gpu(&shader, subject, gpu)?,
-                (Machine::Ieee32, _) => self.on_cpu(&shader, subject, &silent, Arithmetic::Ieee32)?,
+                (Machine::Ieee32, _) => {
+                    self.on_cpu(&shader, subject, &silent, Arithmetic::Ieee32)?
+                }
                 (Machine::Reference, _) => {
                     self.on_cpu(&shader, subject, &silent, Arithmetic::Reference)?
                 }
@@ -91,7 +93,10 @@ impl Place<'_> {
         if point.len() != module.inputs.len() {
             let columns = module.inputs.join(",");
             return Err(Failure::usage_hint(
-                format!("--at has {} numbers, and this formula takes others", point.len()),
+                format!(
+                    "--at has {} numbers, and this formula takes others",
+                    point.len()
+                ),
                 format!("it takes {columns}"),
             ));
         }
@@ -137,9 +142,7 @@ impl Shader {
     fn traced(&self, subject: &Subject, recorders: Recorders) -> Result<Traced, Error> {
         let text = &subject.source.text;
         match self {
-            Self::Scene(scene, _) => {
-                trace::traced_scene(subject.picture(), scene, text, recorders)
-            }
+            Self::Scene(scene, _) => trace::traced_scene(subject.picture(), scene, text, recorders),
             Self::Evaluation(module) => trace::traced_evaluation(module, text, recorders),
         }
     }

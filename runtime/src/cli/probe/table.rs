@@ -51,7 +51,11 @@ struct Line {
 
 fn lines(out: &mut impl Write, findings: &Findings, pairs: &[Pair]) -> io::Result<()> {
     let mut title: Vec<String> = findings.columns.iter().map(|c| c.name.to_owned()).collect();
-    title.extend(pairs.iter().map(|pair| format!("{}-{}", pair.names[0], pair.names[1])));
+    title.extend(
+        pairs
+            .iter()
+            .map(|pair| format!("{}-{}", pair.names[0], pair.names[1])),
+    );
     let mut table = vec![Line {
         head: "value".into(),
         cells: title,
@@ -79,7 +83,11 @@ fn lines(out: &mut impl Write, findings: &Findings, pairs: &[Pair]) -> io::Resul
                 let ulps = findings.distance(&row, pair.columns, k);
                 cells.push(ulps.map_or_else(String::new, number::units));
             }
-            let count = if many { format!(" #{}", k + 1) } else { String::new() };
+            let count = if many {
+                format!(" #{}", k + 1)
+            } else {
+                String::new()
+            };
             table.push(Line {
                 head: format!("  {}{count}", head(site)),
                 cells,
