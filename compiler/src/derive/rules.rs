@@ -35,6 +35,15 @@ pub fn quotient_correction(g: &mut Graph, quotient: Id, b: Id, slope: Id) -> Id 
     g.apply(Prim::Select, &[counts, product, zero])
 }
 
+/// (1/b)' = -b' (1/b²) for a complex b with a real constant b', as one operation: the parts of a square of a rounded 1/b that
+/// cancel are good to its modulus alone. `None` where b is something else.
+pub fn inverse_tangent(g: &mut Graph, b: Id, slope: Id) -> Option<Id> {
+    let slope = g.as_real(slope).filter(|_| g.ty(b) == Ty::Complex)?;
+    let square = g.apply(Prim::PowInt(-2), &[b]);
+    let factor = g.real(-slope);
+    Some(g.mul(factor, square))
+}
+
 /// Whether a divisor has a part that overflows at arguments of ordinary size: exponentials, high powers. Not further than
 /// [`MAX_SEARCH`] nodes.
 pub fn may_overflow(g: &Graph, divisor: Id) -> bool {

@@ -4,8 +4,6 @@ use std::io::Write;
 
 use color_quant::NeuQuant;
 use gif::{Encoder, EncodingError, Frame, Repeat};
-use image::imageops::{ColorMap, dither, index_colors};
-use image::{Rgba, RgbaImage};
 
 use super::Clip;
 use crate::Error;
@@ -28,14 +26,10 @@ pub(super) fn encode(
     encoder.set_repeat(Repeat::Infinite).map_err(failure)?;
     for number in 0..clip.frames {
         let pixels = draw(number)?;
-        let colours = Palette(NeuQuant::new(stride(pixels.len() / 4), COLOURS, &pixels));
-        let mut picture = RgbaImage::from_raw(clip.size.width, clip.size.height, pixels)
-            .ok_or_else(|| too_large(clip))?;
-        dither(&mut picture, &colours);
-        let indices = index_colors(&picture, &colours);
-        let palette = colours.0.color_map_rgb();
-        let mut frame =
-            Frame::from_palette_pixels(width, height, indices.into_raw(), palette, None);
+        let colours = NeuQuant::new(stride(pixels.len() / 4), COLOURS, &pixels);
+        let indices = diffuse(&pixels, usize::from(width), &colours);
+        let palette = colours.color_map_rgb();
+        let mut frame = Frame::from_palette_pixels(width, height, indices, palette, None);
         frame.delay = delay(clip.rate);
         encoder.write_frame(&frame).map_err(failure)?;
     }
@@ -48,19 +42,35 @@ fn stride(pixels: usize) -> i32 {
     i32::try_from(stride).unwrap_or(1)
 }
 
-/// The colours of a frame, as the error diffusion wants them.
-struct Palette(NeuQuant);
-
-impl ColorMap for Palette {
-    type Color = Rgba<u8>;
-
-    fn index_of(&self, color: &Self::Color) -> usize {
-        self.0.index_of(&color.0)
+/// The nearest colour of each pixel, after what its neighbours lack has been added: 7/16 of it to the next pixel, 3/16,
+/// 5/16 and 1/16 to those below (R. W. Floyd, L. Steinberg, "An adaptive algorithm for spatial greyscale", 1976).
+fn diffuse(rgba: &[u8], width: usize, colours: &NeuQuant) -> Vec<u8> {
+    let mut indices = Vec::with_capacity(rgba.len() / 4);
+    // one place more at either end takes what falls off the sides
+    let mut lacking = vec![[0.0_f32; 3]; width + 2];
+    let mut below = lacking.clone();
+    for row in rgba.chunks_exact(4 * width) {
+        for (x, pixel) in row.as_chunks::<4>().0.iter().enumerate() {
+            let mut wanted = [0.0; 3];
+            for c in 0..3 {
+                wanted[c] = (f32::from(pixel[c]) + lacking[x + 1][c]).clamp(0.0, 255.0);
+            }
+            let [r, g, b] = wanted.map(|value| value.round() as u8);
+            let index = colours.index_of(&[r, g, b, 255]);
+            indices.push(index as u8);
+            let found = colours.lookup(index).unwrap_or_default();
+            for c in 0..3 {
+                let error = wanted[c] - f32::from(found[c]);
+                lacking[x + 2][c] += error * (7.0 / 16.0);
+                below[x][c] += error * (3.0 / 16.0);
+                below[x + 1][c] += error * (5.0 / 16.0);
+                below[x + 2][c] += error * (1.0 / 16.0);
+            }
+        }
+        std::mem::swap(&mut lacking, &mut below);
+        below.fill([0.0; 3]);
     }
-
-    fn map_color(&self, color: &mut Self::Color) {
-        self.0.map_pixel(&mut color.0);
-    }
+    indices
 }
 
 /// Hundredths of a second from frame to frame; fewer than two are shown slowly by many programs.

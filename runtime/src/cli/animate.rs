@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::Args;
 use pullback_compiler::{Program, SceneModule, SettingValue};
 use pullback_runtime::animation::{self, Clip, Container, MAX_FRAMES, Sweep};
+use pullback_runtime::image_file::Format;
 use pullback_runtime::{Error, Frame, Metadata, RowSink, Size, View, image_file};
 
 use super::failure::Failure;
@@ -107,10 +108,10 @@ impl Animation {
         reel: &Reel,
         frames: u32,
         artist: &mut Artist,
-        output: (&Path, &Metadata),
+        output: (&Path, Format, &Metadata),
         progress: &mut Progress,
     ) -> Result<(), Failure> {
-        let (path, metadata) = output;
+        let (path, format, metadata) = output;
         // every number is looked at before the first picture is drawn
         for frame in [0, frames - 1] {
             self.moment(reel, frame, frames)?;
@@ -153,7 +154,8 @@ impl Animation {
             }
             None => (0..frames).try_for_each(|number| {
                 let file = animation::frame_path(path, number, frames);
-                image_file::write_png(&file, reel.still.size, metadata, |sink| draw(number, sink))
+                let size = reel.still.size;
+                image_file::write(&file, format, size, metadata, |sink| draw(number, sink))
             }),
         };
         match refused {

@@ -7,8 +7,10 @@ use clap::{Args, ValueEnum};
 use pullback_compiler::lower::Precision;
 use pullback_compiler::scene::{SettingKind, Space};
 use pullback_compiler::{Picture, SceneModule, SettingValue};
+use pullback_runtime::animation::Container;
 use pullback_runtime::auto::{self, Scenery};
 use pullback_runtime::executor::Painter;
+use pullback_runtime::image_file::Format;
 use pullback_runtime::render::{MAX_SAMPLES, MAX_SIDE};
 use pullback_runtime::{
     Error, Frame, Gpu, Metadata, Pipeline, Renderer, RowSink, Size, View, fill_in_scale, image_file,
@@ -35,6 +37,9 @@ pub(super) struct RenderArguments {
     #[arg(long, default_value_t = 2, value_name = "N",
           value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     samples: u32,
+    /// Bits of a number: 8 or 16 in a PNG, 16 or 32 in an .exr file, which holds linear light [default: 8, or 32]
+    #[arg(long, value_name = "BITS")]
+    depth: Option<u32>,
     /// World coordinates of the centre
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     center: Option<[f64; 2]>,
@@ -80,6 +85,13 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         &params,
         arguments.settings.time,
     );
+    let path = arguments
+        .output
+        .output
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{}.png", source.stem)));
+    let shown = name(&path);
+    let (frames, format) = kind(arguments, &path)?;
     let mut frame = Frame {
         view,
         params: &params,
@@ -88,6 +100,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         samples: arguments.samples,
         time: arguments.settings.time,
         pipeline: match arguments.pipeline {
+            _ if format.is_linear() => Pipeline::Linear,
             Stage::Compute => Pipeline::Compute,
             Stage::Fragment => Pipeline::Fragment,
         },
@@ -120,22 +133,16 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         tier.precision,
         &computer,
     );
-    let path = arguments
-        .output
-        .output
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(format!("{}.png", source.stem)));
-    let shown = name(&path);
     let mut progress = Progress::new(console);
-    let mut artist = Artist::new(&computer, &scene)?;
-    if let Some(frames) = arguments.animation.frames(&path)? {
+    let mut artist = Artist::new(&computer, &scene, frame.pipeline)?;
+    if let Some(frames) = frames {
         let reel = Reel {
             program: &source.program,
             scene: &scene,
             settings: &settings,
             still: frame,
         };
-        let output = (path.as_path(), &metadata);
+        let output = (path.as_path(), format, &metadata);
         arguments
             .animation
             .write(&reel, frames, &mut artist, output, &mut progress)?;
@@ -143,7 +150,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         console.note(&drawn(&shown, arguments.size, Some(frames), &progress));
         return Ok(());
     }
-    image_file::write_png(&path, frame.size, &metadata, |sink| {
+    image_file::write(&path, format, frame.size, &metadata, |sink| {
         let mut sink = Counted {
             sink,
             progress: &mut progress,
@@ -156,6 +163,25 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     Ok(())
 }
 
+/// How many frames are wanted, none for a still picture, and what the file or files hold.
+fn kind(arguments: &RenderArguments, path: &Path) -> Result<(Option<u32>, Format), Failure> {
+    let format = Format::of(path, arguments.depth)
+        .map_err(|message| Failure::usage_hint(message, "leave --depth out, or change it"))?;
+    if format.is_linear() && matches!(arguments.pipeline, Stage::Fragment) {
+        return Err(Failure::usage_hint(
+            "the fragment stage gives 8 bits of sRGB",
+            "leave --pipeline out",
+        ));
+    }
+    if format.is_linear() && Container::of(path).is_some() {
+        return Err(Failure::usage_hint(
+            format!("{} holds 8 bits of sRGB", name(path)),
+            "leave --depth out, or write numbered .png files",
+        ));
+    }
+    Ok((arguments.animation.frames(path)?, format))
+}
+
 /// What draws.
 pub(super) enum Artist {
     Device(Box<Renderer>),
@@ -163,11 +189,15 @@ pub(super) enum Artist {
 }
 
 impl Artist {
-    pub(super) fn new(computer: &Computer, scene: &SceneModule) -> Result<Self, Failure> {
+    pub(super) fn new(
+        computer: &Computer,
+        scene: &SceneModule,
+        pipeline: Pipeline,
+    ) -> Result<Self, Failure> {
         Ok(match computer {
             Computer::Adapter(gpu) => Self::Device(Box::new(Renderer::new(gpu, scene)?)),
             Computer::Processor(arithmetic) => {
-                Self::Processor(Box::new(Painter::new(scene, *arithmetic)?))
+                Self::Processor(Box::new(Painter::new(scene, *arithmetic, pipeline)?))
             }
         })
     }
