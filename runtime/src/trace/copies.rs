@@ -84,10 +84,10 @@ mod tests {
                     @compute @workgroup_size(1) fn main() { c(); c(); b(); } fn unused() { c(); }";
         let module = naga::front::wgsl::parse_str(text).unwrap();
         let found = standings(&module);
-        let standing = |copies, depth| Some(&Standing { copies, depth });
-        assert_eq!(found.get("c"), standing(2, 1));
-        assert_eq!(found.get("b"), standing(3, 1));
-        assert_eq!(found.get("a"), standing(8, 2));
+        let standing = |copies, depth| Some(Standing { copies, depth });
+        assert_eq!(found.get("c").copied(), standing(2, 1));
+        assert_eq!(found.get("b").copied(), standing(3, 1));
+        assert_eq!(found.get("a").copied(), standing(8, 2));
         assert_eq!(found.get("unused"), None);
     }
 }

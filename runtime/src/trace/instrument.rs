@@ -270,6 +270,7 @@ impl<'m, 's> Instrument<'m, 's> {
             writer: Writer::new(
                 module,
                 before,
+                info,
                 if scope.detail == Detail::Operations {
                     scope.source
                 } else {
