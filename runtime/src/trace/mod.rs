@@ -12,19 +12,24 @@ mod inputs;
 mod instrument;
 mod operands;
 mod parting;
+mod parts;
+mod recorders;
 mod relevance;
 mod scan;
 mod site;
 mod text;
+mod traced;
 
 pub use cpu::{pixel_on_cpu, row_on_cpu};
 pub use fault::{Fault, first_fault};
 pub use gpu::GpuTracer;
 pub use inputs::{Access, Buffer, Inputs};
-pub use instrument::{Detail, Recorders, Traced};
+pub use instrument::Detail;
 pub use parting::{Parting, Row, distance, parting, rows};
+pub use recorders::Recorders;
 pub use scan::{Oddities, scan};
 pub use site::{Event, Operand, Shape, Site, Trace, Value, What};
+pub use traced::Traced;
 
 use pullback_compiler::link::is_stub;
 use pullback_compiler::module::DEMANDS;
