@@ -33,6 +33,9 @@ fn label(machine: &Machine) -> String {
     match machine {
         Machine::Reference => "f64 reference".to_owned(),
         Machine::Gpu(gpu, tier) => format!("{} ({})", gpu.adapter().name, tier.name()),
+        Machine::Processor(arithmetic, tier) => {
+            format!("{} ({})", arithmetic.name(), tier.name())
+        }
     }
 }
 
