@@ -174,7 +174,7 @@ fn paint(
     frame: &Frame,
     settings: &[SettingValue],
 ) -> Result<(f64, Vec<u8>, usize), String> {
-    let painter = Painter::new(scene, arithmetic).map_err(|e| e.to_string())?;
+    let painter = Painter::new(scene, arithmetic, Pipeline::Compute).map_err(|e| e.to_string())?;
     let mut pixels = Vec::new();
     let start = Instant::now();
     let never = AtomicBool::new(false);

@@ -1,8 +1,10 @@
 //! Arguments, and what each command does.
 
 mod accuracy;
+mod animate;
 mod check;
 mod console;
+mod diff;
 mod doctor;
 mod emit;
 mod eval;
@@ -13,11 +15,13 @@ mod functions;
 mod json;
 mod overrides;
 mod place;
+mod probe;
 mod progress;
 mod render;
 mod scenes;
 mod source;
 mod spelling;
+mod subject;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -73,6 +77,12 @@ enum Command {
     /// Evaluate a formula at points
     #[command(after_help = EXIT_CODES)]
     Eval(eval::EvalArguments),
+    /// Compare two pictures, in numbers and to the eye
+    #[command(after_help = diff::EXIT_CODES)]
+    Diff(diff::DiffArguments),
+    /// Show what is computed on the way to a pixel, and where machines part
+    #[command(after_help = EXIT_CODES)]
+    Probe(probe::ProbeArguments),
     /// Say what this machine offers and what is missing
     #[command(after_help = EXIT_CODES)]
     Doctor(doctor::DoctorArguments),
@@ -288,6 +298,8 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
         Command::Fmt(arguments) => fmt::run(&arguments, console),
         Command::Explain(arguments) => explain::run(&arguments, console),
         Command::Eval(arguments) => eval::run(&arguments, console),
+        Command::Diff(arguments) => diff::run(&arguments, console),
+        Command::Probe(arguments) => probe::run(&arguments, console),
         Command::Doctor(arguments) => doctor::run(&arguments, console),
         Command::Accuracy(arguments) => accuracy::run(&arguments, console),
         Command::Functions(arguments) => functions::run(&arguments),

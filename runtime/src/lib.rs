@@ -17,11 +17,13 @@
 )]
 
 pub mod accuracy;
+pub mod animation;
 pub mod atomic_file;
 pub mod auto;
 pub mod capabilities;
 pub mod decorate;
 pub mod device;
+pub mod difference;
 pub mod error;
 pub mod evaluate;
 pub mod executor;
@@ -31,6 +33,7 @@ pub mod probe;
 pub mod render;
 pub mod rows;
 pub mod shader;
+pub mod trace;
 
 mod buffers;
 mod pool;

@@ -1,4 +1,4 @@
-//! Pictures on the processor: a scene's `compute_main` for every pixel, tile by tile, on all cores.
+//! Pictures on the processor: a scene's `compute_main` or `linear_main` for every pixel, tile by tile, on all cores.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::available_parallelism;
@@ -13,7 +13,7 @@ use super::program::{Component, Options, Program, Start};
 use super::{Arithmetic, Observer};
 use crate::Error;
 use crate::pool::spread;
-use crate::render::{Frame, RowSink};
+use crate::render::{Frame, Pipeline, RowSink};
 use crate::tiles::Tile;
 use crate::uniforms::WideWords;
 
@@ -30,17 +30,30 @@ const BAND: u32 = 1 << 22;
 pub struct Painter {
     program: Program,
     format: Format,
+    /// Words of a pixel in `image`.
+    words: usize,
     /// Steps that the loops of one pixel may take in all.
     pub steps: u64,
 }
 
 impl Painter {
-    /// Translates the scene.
+    /// Translates the scene for pixels in the form of a pipeline; both forms of 8 bits are one here.
     ///
     /// # Errors
     /// [`Error::Executor`] if it holds what none of our scenes does.
-    pub fn new(scene: &SceneModule, arithmetic: Arithmetic) -> Result<Self, Error> {
-        Self::start(scene, Start::EntryPoint("compute_main"), arithmetic, false)
+    pub fn new(
+        scene: &SceneModule,
+        arithmetic: Arithmetic,
+        pipeline: Pipeline,
+    ) -> Result<Self, Error> {
+        let entry = match pipeline {
+            Pipeline::Linear => "linear_main",
+            Pipeline::Compute | Pipeline::Fragment => "compute_main",
+        };
+        Ok(Self {
+            words: pipeline.bytes_per_pixel() / 4,
+            ..Self::start(scene, Start::EntryPoint(entry), arithmetic, false)?
+        })
     }
 
     /// Translates the scene to be asked for what it computes on the way to a point of the picture: [`Self::trace`].
@@ -74,6 +87,7 @@ impl Painter {
         Ok(Self {
             program: Program::new(&scene.module, &scene.info, start, options)?,
             format,
+            words: 1,
             steps: MAX_STEPS,
         })
     }
@@ -155,11 +169,11 @@ impl Painter {
                     - band.pixels() * (finished - 1) / tiles.len() as u64,
             );
         });
-        let mut pixels = vec![0; band.pixels() as usize * 4];
+        let mut pixels = vec![0; band.pixels() as usize * self.words * 4];
         let mut fault = None;
         for (tile, drawn) in tiles.iter().zip(drawn) {
             match drawn {
-                Some(Ok(colours)) => place(&mut pixels, band, *tile, &colours),
+                Some(Ok(colours)) => place(&mut pixels, band, *tile, (&colours, self.words)),
                 // what others met goes before their being stopped for it
                 Some(Err(Fault::Cancelled)) => fault = fault.or(Some(Fault::Cancelled)),
                 Some(Err(other)) => return Err(other.into()),
@@ -189,7 +203,7 @@ impl Painter {
         let image = self.program.buffer("image");
         if let Some(image) = image.and_then(|k| machine.buffer(k)) {
             image.clear();
-            image.resize(tile.pixels() as usize, 0);
+            image.resize(tile.pixels() as usize * self.words, 0);
         }
         let limits = Limits {
             steps: self.steps,
@@ -335,12 +349,12 @@ fn tiles(band: Tile) -> Vec<Tile> {
     tiles
 }
 
-/// Copies a tile's colours into the bytes of a band.
-fn place(pixels: &mut [u8], band: Tile, tile: Tile, colours: &[u64]) {
-    let stride = band.width as usize * 4;
-    let lines = colours.chunks(tile.width as usize);
+/// Copies a tile's colours, of so many words each, into the bytes of a band.
+fn place(pixels: &mut [u8], band: Tile, tile: Tile, (colours, words): (&[u64], usize)) {
+    let stride = band.width as usize * words * 4;
+    let lines = colours.chunks(tile.width as usize * words);
     for (line, row) in lines.zip((tile.y - band.y) as usize..) {
-        let start = row * stride + tile.x as usize * 4;
+        let start = row * stride + tile.x as usize * words * 4;
         for (pixel, &colour) in pixels[start..].chunks_exact_mut(4).zip(line) {
             pixel.copy_from_slice(&(colour as u32).to_le_bytes());
         }

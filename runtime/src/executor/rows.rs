@@ -6,12 +6,12 @@ use std::thread::available_parallelism;
 use pullback_compiler::EvalModule;
 use pullback_compiler::lower::Format;
 
-use super::Arithmetic;
 use super::fault::Fault;
 use super::lanes::LANES;
 use super::machine::{Limits, MAX_STEPS, Machine};
 use super::painter::wide_word;
 use super::program::{Buffer, Options, Program, Start};
+use super::{Arithmetic, Observer};
 use crate::Error;
 use crate::evaluate::Surroundings;
 use crate::pool::spread;
@@ -37,11 +37,23 @@ impl Rows {
     /// # Errors
     /// [`Error::Executor`] if it holds what none of our modules does.
     pub fn new(module: &EvalModule, arithmetic: Arithmetic) -> Result<Self, Error> {
+        Self::start(module, arithmetic, false)
+    }
+
+    /// Translates the module to be asked for what it computes on the way: [`Self::trace`].
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn traced(module: &EvalModule, arithmetic: Arithmetic) -> Result<Self, Error> {
+        Self::start(module, arithmetic, true)
+    }
+
+    fn start(module: &EvalModule, arithmetic: Arithmetic, traced: bool) -> Result<Self, Error> {
         let format = module.tier.precision.format();
         let options = Options {
             arithmetic,
             format,
-            traced: false,
+            traced,
         };
         let start = Start::EntryPoint("compute_main");
         Ok(Self {
@@ -71,16 +83,12 @@ impl Rows {
         rows: &[f64],
         results: &mut Vec<f64>,
     ) -> Result<(), Error> {
-        if count.checked_mul(self.columns) != Some(rows.len()) {
-            let (numbers, columns) = (rows.len(), self.columns);
-            let reason = format!("{numbers} numbers for {count} rows of {columns}");
-            return Err(Error::Invalid { reason });
-        }
+        self.check(count, rows)?;
         let tasks: Vec<_> = (0..count).step_by(TASK).collect();
         let part = |machine: &mut Machine, &start: &usize| {
             let end = (start + TASK).min(count);
             let numbers = &rows[start * self.columns..end * self.columns];
-            self.task(machine, end - start, numbers)
+            self.task(machine, end - start, numbers, &mut ())
         };
         let mut machine = self.machine(surroundings);
         if let [start] = tasks.as_slice() {
@@ -94,6 +102,30 @@ impl Rows {
             results.extend(values.ok_or_else(lost)??);
         }
         Ok(())
+    }
+
+    /// Evaluates one row, with an observer that sees what is computed on the way.
+    ///
+    /// # Errors
+    /// As [`Self::eval`].
+    pub fn trace(
+        &self,
+        surroundings: Surroundings,
+        row: &[f64],
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<f64>, Error> {
+        self.check(1, row)?;
+        let mut machine = self.machine(surroundings);
+        Ok(self.task(&mut machine, 1, row, observer)?)
+    }
+
+    fn check(&self, count: usize, rows: &[f64]) -> Result<(), Error> {
+        if count.checked_mul(self.columns) == Some(rows.len()) {
+            return Ok(());
+        }
+        let (numbers, columns) = (rows.len(), self.columns);
+        let reason = format!("{numbers} numbers for {count} rows of {columns}");
+        Err(Error::Invalid { reason })
     }
 
     fn machine(&self, surroundings: Surroundings) -> Machine<'_> {
@@ -118,7 +150,13 @@ impl Rows {
         machine
     }
 
-    fn task(&self, machine: &mut Machine, count: usize, rows: &[f64]) -> Result<Vec<f64>, Fault> {
+    fn task(
+        &self,
+        machine: &mut Machine,
+        count: usize,
+        rows: &[f64],
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<f64>, Fault> {
         for component in &self.program.inputs {
             if component.path == "batch.count" {
                 machine.set_uniform(component, count as u64);
@@ -146,7 +184,7 @@ impl Rows {
                 machine.set_argument(0, lane, (start + lane) as u64);
                 machine.set_argument(1, lane, 0);
             }
-            machine.run(lanes, limits)?;
+            machine.run_observed(lanes, limits, observer)?;
         }
         let Some(k) = results_at else {
             return Ok(Vec::new());
