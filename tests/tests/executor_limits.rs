@@ -151,7 +151,8 @@ fn pictures_end_at_the_bound_and_are_cancelled() {
         panic!("no scene");
     };
     let settings = &program.pictures()[0].settings;
-    let mut painter = Painter::new(&scene, Arithmetic::Reference).expect("a painter");
+    let mut painter =
+        Painter::new(&scene, Arithmetic::Reference, Pipeline::Compute).expect("a painter");
     let flag = AtomicBool::new(false);
     let mut rows = Vec::new();
     painter

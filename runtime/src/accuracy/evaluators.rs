@@ -1,5 +1,7 @@
 //! The evaluators that are judged: the `f64` reference, and a GPU by the functions of a tier.
 
+use std::fmt;
+
 use pullback_compiler::formula::Formula;
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{EvalModule, Evaluator, What};
@@ -27,6 +29,18 @@ pub enum Machine {
     Gpu(Box<Gpu>, Precision),
     /// The processor, by the shader of a tier.
     Processor(Arithmetic, Precision),
+}
+
+impl fmt::Display for Machine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reference => f.write_str("f64 reference"),
+            Self::Gpu(gpu, tier) => write!(f, "{} ({})", gpu.adapter().name, tier.name()),
+            Self::Processor(arithmetic, tier) => {
+                write!(f, "{} ({})", arithmetic.name(), tier.name())
+            }
+        }
+    }
 }
 
 impl Machine {
