@@ -16,6 +16,9 @@ use pullback_runtime::executor::{
 };
 use pullback_runtime::{Error, Frame, Pipeline, Size, View};
 
+// one loop of the language in every sample
+const _: () = assert!(MAX_STEPS > 100_000 * 16 * 16);
+
 const OPTIONS: Options = Options {
     arithmetic: Arithmetic::Reference,
     format: Format::Single,
@@ -86,10 +89,6 @@ fn loops_end_at_the_bound_with_a_message() {
     );
     let endless = run(&program, &[0, 5, u64::from(u32::MAX)], steps(100_000));
     assert_eq!(endless, Err(Fault::Steps { limit: 100_000 }));
-    assert!(
-        MAX_STEPS > 100_000 * 16 * 16,
-        "one loop of the language in every sample"
-    );
 }
 
 /// Each lane's steps count, whatever its neighbours do: together these take more than any of them.
