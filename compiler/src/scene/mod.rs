@@ -4,9 +4,11 @@ mod bands;
 mod checker;
 mod domain;
 mod grid;
+mod implicit;
 mod levels;
 mod logcontours;
 mod setting;
+mod sphere;
 mod surface;
 
 use std::sync::OnceLock;
@@ -47,13 +49,15 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 7] = [
+    static SCENES: [Scene; 9] = [
         levels::SCENE,
         logcontours::SCENE,
         bands::SCENE,
+        implicit::SCENE,
         domain::SCENE,
         checker::SCENE,
         grid::SCENE,
+        sphere::SCENE,
         surface::SCENE,
     ];
     &SCENES
