@@ -156,7 +156,7 @@ fn is_parallel(m: Model) -> bool {
     return max(abs(m.across), abs(m.mixed)) <= 0.25 * abs(m.along);
 }
 
-// Whether the quadratic model has two parallel zeros in the sample: what is finer is not drawn.
+// Whether the quadratic model has two parallel zeros within `reach`: what is finer is not drawn.
 fn is_crowded(m: Model, h: f32, reach: f32) -> bool {
     let root = m.slope * (1.0 + sqrt(max(1.0 - 2.0 * h, 0.0)));
     return is_parallel(m) && h <= 0.5 && root <= abs(m.along) * reach;
@@ -201,7 +201,7 @@ fn verdict_of(m: Model) -> Verdict {
     if none_near {
         return Verdict(distance, touches, true);
     }
-    if !m.known || (!is_whole && is_crowded(m, h, reach)) {
+    if !m.known || (!is_whole && is_crowded(m, h, 1.0)) {
         return Verdict(distance, false, false);
     }
     if simple && !touches {

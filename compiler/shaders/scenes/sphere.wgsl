@@ -179,12 +179,15 @@ fn on_screen(jet: Jet, chart: Chart) -> Jet {
 }
 
 fn seen_jet(place: Place) -> Jet {
-    if place.point.z >= 0.0 {
-        let chart = chart_at(place, 1.0);
-        return on_screen(chart_jet(chart.coordinate), chart);
+    let side = select(-1.0, 1.0, place.point.z >= 0.0);
+    let chart = chart_at(place, side);
+    var jet: Jet;
+    if side > 0.0 {
+        jet = chart_jet(chart.coordinate);
+    } else {
+        jet = chart_jet_inverse(chart.coordinate);
     }
-    let chart = chart_at(place, -1.0);
-    return on_screen(chart_jet_inverse(chart.coordinate), chart);
+    return on_screen(jet, chart);
 }
 
 // Meridians and parallels, `graticule` to a whole circle.
