@@ -16,7 +16,7 @@ const SHARES: (f64, f64) = (0.6, 0.95);
 const LINES: f64 = 4.0;
 
 /// The share of the view whose values stay between the middle stripes, and how many those are to each side.
-const STRIPES: (f64, f64) = (0.9, 6.0);
+const STRIPES: (f64, f64) = (0.9, 4.0);
 
 /// Settings of scenes of the plane that are automatic where they are 0, and what they become from sorted sizes of values.
 type Rule = fn(&[f64]) -> f64;

@@ -188,7 +188,7 @@ impl Analysis<'_> {
                     self.places
                         .insert(Place::Member(name.clone(), k), Units::from([LENGTH]));
                 }
-                if name == "Jet" {
+                if name == "Jet" || name == "Jet2" {
                     let unit = if k == 0 {
                         Unit::of_value(0)
                     } else {

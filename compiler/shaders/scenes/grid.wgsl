@@ -138,7 +138,7 @@ fn axis_coverage(at: Coordinates, crowd: f32) -> f32 {
         select(0.0, line_coverage(away.x, width, sample_window()), known.x),
         select(0.0, line_coverage(away.y, width, sample_window()), known.y),
     );
-    return covered * (1.0 - smoothstep(0.04, 0.2, crowd));
+    return covered * (1.0 - smoothstep(0.02, 0.1, crowd));
 }
 
 fn lines_of(at: f32, rate: f32, octave: Octave) -> f32 {

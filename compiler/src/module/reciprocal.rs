@@ -284,3 +284,108 @@ fn other(unit: Id) -> Factored {
         kind: Kind::Other,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::reciprocal;
+    use crate::compile;
+    use crate::eval::{Leaves, Tape};
+    use crate::formula::Formula;
+    use crate::reference::complex::{Complex, complex};
+    use crate::table::Number;
+
+    fn formula(text: &str) -> Formula {
+        let compiled = compile(&format!("f(z) = {text}\nshow domain(f)"));
+        let Some(program) = compiled.program else {
+            panic!("{text}: {:?}", compiled.diagnostics);
+        };
+        program.pictures()[0].formula.clone()
+    }
+
+    fn norm(z: Complex) -> f64 {
+        z.re.hypot(z.im)
+    }
+
+    fn polar(r: f64, angle: f64) -> Complex {
+        complex(r * angle.cos(), r * angle.sin())
+    }
+
+    fn run(tape: &mut Tape, z: Complex) -> Complex {
+        let inputs = [Number::Complex(complex(z.re, z.im))];
+        let leaves = Leaves {
+            inputs: &inputs,
+            params: &[],
+            time: 0.0,
+            pixel: 0.0,
+        };
+        let mut out = complex(f64::NAN, f64::NAN);
+        tape.run(&leaves, |value| {
+            out = match value {
+                Number::Complex(z) => z,
+                Number::Real(x) => complex(x, 0.0),
+                Number::Truth(_) => out,
+            };
+        });
+        out
+    }
+
+    fn at_reciprocal(text: &str, w: Complex) -> Complex {
+        let f = formula(text);
+        let (graph, roots) = reciprocal(&f.graph, &f.value, &f.scalars());
+        run(&mut Tape::new(&graph, &roots), w)
+    }
+
+    /// Where z = 1/w is an ordinary number, both forms are one function.
+    #[test]
+    fn it_is_the_same_function() {
+        for text in [
+            "z",
+            "(z^2 - 1)/(z + i)",
+            "3z^5 - 2/z^3 + i",
+            "conj(z)^2 + 1/z",
+            "exp(z) z^3 - |z|",
+            "iterate(3, w = z, w (2w^5 + 3)/(3w^5 + 2))",
+            "iterate(4, w = z, w^2 - 0.8 + 0.15i)",
+            "iterate(3, w = 1/z, w^2 + z)",
+            "r.w + r.d where r = iterate(5, w = z, d = 1, w^2 + 0.3, 2 w d until |w| > 4)",
+            "sum(k in 1..5, z^k/k)",
+            "√(-z/z)",
+            "if re(z) > 0 then z else 1/z",
+            "(z/z)^2 gamma(1/z)",
+        ] {
+            let f = formula(text);
+            let mut direct = Tape::new(&f.graph, &f.value);
+            for k in 0..40 {
+                let w = polar(0.3 + 0.05 * f64::from(k), 0.7 * f64::from(k) + 0.1);
+                let (found, wanted) = (
+                    at_reciprocal(text, w),
+                    run(&mut direct, complex(1.0, 0.0) / w),
+                );
+                let error = norm(found - wanted) / norm(wanted).max(1.0);
+                assert!(
+                    error < 1e-10 || !norm(wanted).is_finite(),
+                    "{text} at {w:?}: {found:?}, {wanted:?}"
+                );
+            }
+        }
+    }
+
+    /// At w = 0, and where powers of z overflow, rational functions have their limits.
+    #[test]
+    fn infinity_is_a_point() {
+        let limit = |text: &str, wanted: Complex| {
+            for w in [0.0, 1e-300, 1e-30, 1e-12] {
+                let found = at_reciprocal(text, complex(w, -w));
+                assert!(norm(found - wanted) < 1e-10, "{text} at {w}: {found:?}");
+            }
+        };
+        limit("(3z^2 - 1)/(2z^2 + i)", complex(1.5, 0.0));
+        limit("(z^40 - 3)/(i z^40 + z)", complex(0.0, -1.0));
+        limit("(z - 1)/(z^2 + 1)", complex(0.0, 0.0));
+        limit(
+            "iterate(2, w = z, w (2w^5 + 3)/(3w^5 + 2))/z",
+            complex(4.0 / 9.0, 0.0),
+        );
+        limit("(z - (z^3 - 1)/(3z^2))/z", complex(2.0 / 3.0, 0.0));
+    }
+}

@@ -48,19 +48,19 @@ pub const SCENE: Scene = Scene {
         SettingSpec::real("checker", 0.4, (0.0, 1.0), "strength of the cells"),
         SettingSpec::real(
             "first_lines",
-            0.5,
+            0.7,
             (0.0, 1.0),
             "strength of the lines of constant re f or |f|",
         ),
         SettingSpec::real(
             "second_lines",
-            0.5,
+            0.7,
             (0.0, 1.0),
             "strength of the lines of constant im f or arg f",
         ),
         SettingSpec::real(
             "axes",
-            0.85,
+            0.9,
             (0.0, 1.0),
             "strength of the lines re f = 0 and im f = 0, or |f| = 1 and arg f = 0",
         ),

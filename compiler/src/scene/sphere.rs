@@ -16,13 +16,13 @@ pub const SCENE: Scene = Scene {
         SettingSpec::height(2.3),
         SettingSpec::real(
             "yaw",
-            -65.0,
+            -20.0,
             (-3600.0, 3600.0),
             "degrees, of the viewer about the axis, from +1 towards +i",
         ),
         SettingSpec::real(
             "pitch",
-            28.0,
+            34.0,
             (-90.0, 90.0),
             "degrees, of the viewer above the equator",
         ),
