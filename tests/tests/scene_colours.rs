@@ -182,6 +182,8 @@ fn constants_have_the_colour_of_their_stripe() {
 // domain and sphere
 
 type Complex = [f64; 2];
+/// A complex function.
+type Map = fn(Complex) -> Complex;
 
 fn mul(a: Complex, b: Complex) -> Complex {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
@@ -262,7 +264,7 @@ const OCTAVES: f64 = 0.045;
 #[test]
 fn domain_colours_are_argument_and_modulus() {
     let Some(gpu) = suite_gpu() else { return };
-    let cases: [(&str, fn(Complex) -> Complex); 4] = [
+    let cases: [(&str, Map); 4] = [
         ("z", identity),
         ("(z^2 - 1)/(z + i)", rational),
         ("conj(z)^2 + 1/z", dipole),
@@ -344,7 +346,7 @@ impl Globe {
 #[test]
 fn the_sphere_s_colours_are_argument_and_modulus_in_both_charts() {
     let Some(gpu) = suite_gpu() else { return };
-    let cases: [(&str, fn(Complex) -> Complex); 4] = [
+    let cases: [(&str, Map); 4] = [
         ("z", identity),
         ("(z^2 - 1)/(z + i)", rational),
         ("conj(z)^2 + 1/z", dipole),

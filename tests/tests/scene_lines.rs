@@ -168,7 +168,15 @@ fn camera(center: [f64; 2], height: f64) -> Camera {
         center,
         height,
         size: [320, 240],
-        samples: 4,
+        samples: 3,
+    }
+}
+
+/// For pictures without lines, which change slowly.
+fn plain(camera: Camera) -> Camera {
+    Camera {
+        samples: 1,
+        ..camera
     }
 }
 
@@ -186,7 +194,7 @@ fn check_implicit(gpu: &Gpu, name: &str, formula: &str, field: Field, camera: Ca
         format!("show implicit({formula}) {{ fill = 0, ink = 0, touch = 0, line_width = {width} }}")
     };
     let with = Picture::draw(gpu, &source(3.0), camera);
-    let without = Picture::draw(gpu, &source(0.0), camera);
+    let without = Picture::draw(gpu, &source(0.0), plain(camera));
     let contrast = Contrast {
         with: &with,
         without: &without,
@@ -287,6 +295,45 @@ fn zero_curves_have_their_place_and_width() {
 }
 
 // ------------------------------------------------------------------------------------------------------------------
+// levels
+
+#[test]
+fn level_lines_have_their_place_and_width() {
+    let Some(gpu) = suite() else { return };
+    let circle: Field = |x, y| [x * x + y * y, 2.0 * x, 2.0 * y];
+    let waves: Field = |x, y| {
+        [
+            x.sin() + (x * y).cos(),
+            x.cos() - y * (x * y).sin(),
+            -x * (x * y).sin(),
+        ]
+    };
+    for (formula, field, camera, spacing) in [
+        ("x² + y²", circle, camera([0.0; 2], 4.0), 1.0),
+        ("x² + y²", circle, camera([0.6, 0.3], 4e-3), 1e-3),
+        ("x² + y²", circle, camera([0.0; 2], 4e3), 1e6),
+        ("sin(x) + cos(x y)", waves, camera([0.3, 0.2], 3.0), 0.5),
+    ] {
+        let source = |width: f64| {
+            format!(
+                "show levels({formula}) {{ ink = 0, palette = paper, major = 0, zero_width = 0, line_opacity = 1, spacing = {spacing}, line_width = {width} }}"
+            )
+        };
+        let with = Picture::draw(&gpu, &source(3.0), camera);
+        let without = Picture::draw(&gpu, &source(0.0), plain(camera));
+        let contrast = Contrast {
+            with: &with,
+            without: &without,
+            ink: [0.0; 3],
+            strength: 1.0,
+        };
+        let level = |x: f64, y: f64| field(x, y).map(|v| v / spacing);
+        let name = format!("levels, {formula}, height {}", camera.height);
+        check_lines(&name, &contrast, 3.0, &crossings(camera, level, 60));
+    }
+}
+
+// ------------------------------------------------------------------------------------------------------------------
 // logcontours
 
 /// log2 |f| in units of twice the finest spacing, where lines have their full weight; NaN where the finest spacing is about
@@ -312,7 +359,7 @@ fn check_logarithm(gpu: &Gpu, name: &str, formula: &str, field: Field, camera: C
         )
     };
     let with = Picture::draw(gpu, &source(1.0), camera);
-    let without = Picture::draw(gpu, &source(0.0), camera);
+    let without = Picture::draw(gpu, &source(0.0), plain(camera));
     // finer lines are fainter: the scan takes what is darker than they can be
     let contrast = Contrast {
         with: &with,
@@ -469,7 +516,7 @@ fn lines_of_the_board_have_their_place_and_width() {
             )
         };
         let with = Picture::draw(&gpu, &source(3.0), camera);
-        let without = Picture::draw(&gpu, &source(0.0), camera);
+        let without = Picture::draw(&gpu, &source(0.0), plain(camera));
         let contrast = Contrast {
             with: &with,
             without: &without,
@@ -524,7 +571,7 @@ fn lines_of_the_grid_have_their_place_and_width() {
                 )
             };
             let with = Picture::draw(&gpu, &strength(1.0), camera);
-            let without = Picture::draw(&gpu, &strength(0.0), camera);
+            let without = Picture::draw(&gpu, &strength(0.0), plain(camera));
             let contrast = Contrast {
                 with: &with,
                 without: &without,
@@ -564,7 +611,7 @@ fn polar_lines_have_their_place_and_width() {
                 )
             };
             let with = Picture::draw(&gpu, &source(1.0), camera);
-            let without = Picture::draw(&gpu, &source(0.0), camera);
+            let without = Picture::draw(&gpu, &source(0.0), plain(camera));
             let contrast = Contrast {
                 with: &with,
                 without: &without,

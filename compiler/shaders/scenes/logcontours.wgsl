@@ -113,7 +113,9 @@ fn colour_of(jet: vec3f, pixel: vec2f) -> vec3f {
     }
     let base = f32(settings.divisions);
     let octave = octave_of_rate(rate, settings.spacing, base);
-    let line = octave_lines(parts.x, parts.y, rate, octave, base, settings.octaves, settings.line_width);
+    // within a pixel of a zero or pole log |f| is not straight across a line's width, and lines without end crowd
+    let known = 1.0 - smoothstep(0.6, 1.5, rate * 0.6931471805599453);
+    let line = known * octave_lines(parts.x, parts.y, rate, octave, base, settings.octaves, settings.line_width);
     return mix(sign_colour(value, parts.x + parts.y, rate), settings.ink, settings.line_opacity * line);
 }
 
