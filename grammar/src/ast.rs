@@ -39,6 +39,13 @@ impl ExprId {
 }
 
 impl Exprs {
+    /// An empty arena with room for this many expressions.
+    pub(crate) fn with_capacity(count: usize) -> Self {
+        Self {
+            nodes: Vec::with_capacity(count),
+        }
+    }
+
     /// Adds an expression.
     pub fn push(&mut self, expr: Expr, span: Span) -> ExprId {
         let id = ExprId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));

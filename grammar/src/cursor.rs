@@ -74,7 +74,8 @@ impl<'a> Parser<'a> {
             text,
             layout,
             scope,
-            exprs: Exprs::default(),
+            // there is hardly more than one expression for each token
+            exprs: Exprs::with_capacity(tokens.len()),
             diagnostics: Vec::new(),
             foreign: Vec::new(),
             bars: 0,
@@ -90,7 +91,7 @@ impl<'a> Parser<'a> {
             here: TokenKind::End,
             start: 0,
             end: 0,
-            heights: Vec::new(),
+            heights: Vec::with_capacity(tokens.len()),
             depth: 0,
             complained_at: None,
             abandoned: false,

@@ -1,6 +1,7 @@
 //! Arguments, and what each command does.
 
 mod accuracy;
+mod animate;
 mod check;
 mod console;
 mod doctor;

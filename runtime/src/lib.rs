@@ -17,6 +17,7 @@
 )]
 
 pub mod accuracy;
+pub mod animation;
 pub mod atomic_file;
 pub mod auto;
 pub mod capabilities;

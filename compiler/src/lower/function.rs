@@ -428,6 +428,7 @@ impl Lowering<'_, '_, '_> {
                 }
                 self.complex_scaled(BinaryOperator::Multiply, inverse, a)
             }
+            (Prim::PowInt(-2), &[z]) => self.library("complex_inverse_square", vec![z]),
             (Prim::PowInt(n), &[z]) => {
                 let n = self.integer(n);
                 self.library("complex_powi", vec![z, n])

@@ -6,12 +6,15 @@ use clap::{Args, ValueEnum};
 use pullback_compiler::lower::Precision;
 use pullback_compiler::scene::{SettingKind, Space};
 use pullback_compiler::{Picture, SettingValue};
+use pullback_runtime::animation::Container;
 use pullback_runtime::auto::{self, Scenery};
+use pullback_runtime::image_file::Format;
 use pullback_runtime::render::{MAX_SAMPLES, MAX_SIDE};
 use pullback_runtime::{
     Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, fill_in_scale, image_file,
 };
 
+use super::animate::{Animation, Reel};
 use super::failure::Failure;
 use super::progress::{Counted, Progress};
 use super::source::Source;
@@ -31,6 +34,9 @@ pub(super) struct RenderArguments {
     #[arg(long, default_value_t = 2, value_name = "N",
           value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     samples: u32,
+    /// Bits of a number: 8 or 16 in a PNG, 16 or 32 in an .exr file, which holds linear light [default: 8, or 32]
+    #[arg(long, value_name = "BITS")]
+    depth: Option<u32>,
     /// World coordinates of the centre
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     center: Option<[f64; 2]>,
@@ -50,6 +56,8 @@ pub(super) struct RenderArguments {
     numbers: Numbers,
     #[command(flatten)]
     rules: Rules,
+    #[command(flatten)]
+    animation: Animation,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -74,6 +82,13 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         &params,
         arguments.settings.time,
     );
+    let path = arguments
+        .output
+        .output
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{}.png", source.stem)));
+    let shown = name(&path);
+    let (frames, format) = kind(arguments, &path)?;
     let mut frame = Frame {
         view,
         params: &params,
@@ -82,6 +97,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         samples: arguments.samples,
         time: arguments.settings.time,
         pipeline: match arguments.pipeline {
+            _ if format.is_linear() => Pipeline::Linear,
             Stage::Compute => Pipeline::Compute,
             Stage::Fragment => Pipeline::Fragment,
         },
@@ -107,15 +123,24 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         console.warning(&warning);
     }
     let metadata = metadata(&source, picture, &settings, &frame, precision, &gpu);
-    let path = arguments
-        .output
-        .output
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(format!("{}.png", source.stem)));
-    let shown = name(&path);
     let mut progress = Progress::new(console);
     let mut renderer = Renderer::new(&gpu, &scene)?;
-    image_file::write_png(&path, frame.size, &metadata, |sink| {
+    if let Some(frames) = frames {
+        let reel = Reel {
+            program: &source.program,
+            scene: &scene,
+            settings: &settings,
+            still: frame,
+        };
+        let output = (path.as_path(), format, &metadata);
+        arguments
+            .animation
+            .write(&reel, frames, &mut renderer, output, &mut progress)?;
+        progress.finish();
+        console.note(&drawn(&shown, arguments.size, Some(frames), &progress));
+        return Ok(());
+    }
+    image_file::write(&path, format, frame.size, &metadata, |sink| {
         renderer.render(
             &frame,
             &mut Counted {
@@ -126,12 +151,35 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     })
     .map_err(Failure::writing(&shown))?;
     progress.finish();
-    let Size { width, height } = frame.size;
-    console.note(&format!(
-        "{shown}: {width}x{height}, {:.2} s",
-        progress.elapsed().as_secs_f64()
-    ));
+    console.note(&drawn(&shown, frame.size, None, &progress));
     Ok(())
+}
+
+/// How many frames are wanted, none for a still picture, and what the file or files hold.
+fn kind(arguments: &RenderArguments, path: &Path) -> Result<(Option<u32>, Format), Failure> {
+    let format = Format::of(path, arguments.depth)
+        .map_err(|message| Failure::usage_hint(message, "leave --depth out, or change it"))?;
+    if format.is_linear() && matches!(arguments.pipeline, Stage::Fragment) {
+        return Err(Failure::usage_hint(
+            "the fragment stage gives 8 bits of sRGB",
+            "leave --pipeline out",
+        ));
+    }
+    if format.is_linear() && Container::of(path).is_some() {
+        return Err(Failure::usage_hint(
+            format!("{} holds 8 bits of sRGB", name(path)),
+            "leave --depth out, or write numbered .png files",
+        ));
+    }
+    Ok((arguments.animation.frames(path)?, format))
+}
+
+/// What has been written, and how long it took.
+fn drawn(name: &str, size: Size, frames: Option<u32>, progress: &Progress) -> String {
+    let Size { width, height } = size;
+    let count = frames.map_or(String::new(), |frames| format!("{frames} pictures of "));
+    let seconds = progress.elapsed().as_secs_f64();
+    format!("{name}: {count}{width}x{height}, {seconds:.2} s")
 }
 
 /// What is seen: of a plane by the options, then by the settings; scenes of space have a camera in their settings.
