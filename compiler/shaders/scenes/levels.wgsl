@@ -66,6 +66,8 @@ fn sample_window() -> f32 { return 0.0; }
 fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
 fn infinite_colour(pixel: vec2f, colour: vec3f) -> vec3f { return vec3f(); }
 fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key { return Key(); }
+fn scale_labels(key: Key, low: f32, middle: f32, high: f32) -> bool { return false; }
+fn label_colour(colour: vec3f) -> vec3f { return vec3f(); }
 fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
 
 // Level lines may darken an area by no more than this on average, however dense they are.
@@ -175,11 +177,20 @@ fn key_value(key: Key) -> vec3f {
     return vec3f(reach * key.step.x / view.pixel, 0.0, reach * key.place.x);
 }
 
+fn labelled(key: Key) -> bool {
+    let reach = 4.0 * color_scale();
+    return scale_labels(key, -reach, 0.0, reach);
+}
+
 fn shade(pixel: vec2f) -> vec4f {
     let key = key_at(pixel, settings.key, 8.0);
     var jet = field_grad(offset_from_pixel(pixel));
     if key.inside {
         jet = key_value(key);
     }
-    return vec4f(with_key_border(colour_of(jet, pixel), key), 1.0);
+    var colour = colour_of(jet, pixel);
+    if key.inside && labelled(key) {
+        colour = label_colour(colour);
+    }
+    return vec4f(with_key_border(colour, key), 1.0);
 }
