@@ -34,8 +34,8 @@ fn with_key_border(colour: vec3f, key: Key) -> vec3f {
     return mix(colour, vec3f(0.01), key.border);
 }
 
-// Whether a number at a place along a bar covers this point of it; `anchor` is 0, 1/2 or 1 for text right of the place, around
-// it, or left of it.
+// Whether a number at a place along a bar covers this point of it; `anchor` is 0 or 1 for text right of the
+// place or left of it.
 fn key_label(key: Key, place: f32, value: f32, anchor: f32) -> bool {
     let half_size = round(1.0 / key.step);
     let cell = max(floor(half_size.y / 6.0), 1.0);
@@ -44,9 +44,9 @@ fn key_label(key: Key, place: f32, value: f32, anchor: f32) -> bool {
     return number_covers(key.place * half_size * vec2f(1.0, -1.0) - origin, value, cell, anchor);
 }
 
-// Labels at both ends of a bar and in its middle.
+// Labels at both ends of a bar, and beside its middle, where a line may be.
 fn scale_labels(key: Key, low: f32, middle: f32, high: f32) -> bool {
-    return key_label(key, -1.0, low, 0.0) || key_label(key, 0.0, middle, 0.5) || key_label(key, 1.0, high, 1.0);
+    return key_label(key, -1.0, low, 0.0) || key_label(key, 0.0, middle, 0.0) || key_label(key, 1.0, high, 1.0);
 }
 
 // Black on light colours, white on dark ones.
