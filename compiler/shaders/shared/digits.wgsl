@@ -1,10 +1,11 @@
 // Numbers as text, in a font of 3 × 5 cells.
 
-const LONGEST: u32 = 12u;
+const LONGEST: u32 = 16u;
 
-// Characters by number: digits, 10 minus, 11 point, 12 e.
+// Characters by number: digits, 10 minus, 11 point, 12 e. Four bits each, the first one in the lowest bits of `first`.
 struct Text {
-    codes: array<u32, 12>,
+    first: u32,
+    second: u32,  // from the ninth on
     count: u32,
 }
 
@@ -28,12 +29,18 @@ fn glyph_cells(code: u32) -> u32 {
 }
 
 fn with_code(text: Text, code: u32) -> Text {
-    var out = text;
-    if out.count < LONGEST {
-        out.codes[out.count] = code;
-        out.count += 1u;
+    let shifted = code << (4u * (text.count % 8u));
+    if text.count < 8u {
+        return Text(text.first | shifted, text.second, text.count + 1u);
     }
-    return out;
+    if text.count < LONGEST {
+        return Text(text.first, text.second | shifted, text.count + 1u);
+    }
+    return text;
+}
+
+fn code_at(text: Text, k: u32) -> u32 {
+    return (select(text.first, text.second, k >= 8u) >> (4u * (k % 8u))) & 15u;
 }
 
 // A positive number as three digits, 100 to 999, and the power of ten of the first of them.
@@ -131,5 +138,5 @@ fn number_covers(at: vec2f, value: f32, cell: f32, anchor: f32) -> bool {
         return false;
     }
     let bit = 14u - (u32(place.y) * 3u + column % 4u);
-    return ((glyph_cells(text.codes[column / 4u]) >> bit) & 1u) == 1u;
+    return ((glyph_cells(code_at(text, column / 4u)) >> bit) & 1u) == 1u;
 }
