@@ -148,8 +148,11 @@ pub fn argument_value(graph: &mut Graph, first: usize, ty: Type) -> Value {
         .into_iter()
         .enumerate()
         .map(|(k, scalar)| Formula::leaf(graph, first + k, scalar));
-    match ty {
+    let value = match ty {
         Type::Vector(_) => Value::Vector(leaves.collect()),
         _ => leaves.map(Value::Scalar).next().unwrap_or(Value::Error),
-    }
+    };
+    // it stands in the text where it is first used
+    graph.cover(Span::default());
+    value
 }

@@ -92,6 +92,43 @@ impl Frame<'_> {
         self.view.height / f64::from(self.size.height)
     }
 
+    /// Says what is wrong with the frame, whatever the scene.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a frame outside of the limits.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let invalid = |reason: String| Err(Error::Invalid { reason });
+        let Size { width, height } = self.size;
+        if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
+            return invalid(format!(
+                "a picture of {width}x{height} pixels: each side must be 1 to {MAX_SIDE}"
+            ));
+        }
+        if self.samples == 0 || self.samples > MAX_SAMPLES {
+            return invalid(format!(
+                "{} samples per axis: must be 1 to {MAX_SAMPLES}",
+                self.samples
+            ));
+        }
+        if self.params.len() > MAX_PARAMS {
+            return invalid(format!(
+                "{} parameters: at most {MAX_PARAMS}",
+                self.params.len()
+            ));
+        }
+        let pixel = self.pixel() as f32;
+        if !(pixel.is_normal() && pixel > 0.0) {
+            return invalid(format!(
+                "a view of height {}: must be a positive number within single precision",
+                self.view.height
+            ));
+        }
+        if !self.view.center.iter().all(|c| (*c as f32).is_finite()) {
+            return invalid("the centre of the view must be finite in single precision".into());
+        }
+        Ok(())
+    }
+
     /// Whether a format tells the points of neighbouring pixels apart, everywhere in the view.
     #[must_use]
     pub fn is_resolved(&self, format: Format) -> bool {
@@ -235,43 +272,14 @@ impl Renderer {
     }
 
     fn check(&self, frame: &Frame) -> Result<(), Error> {
-        let invalid = |reason: String| Err(Error::Invalid { reason });
-        let Size { width, height } = frame.size;
-        if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
-            return invalid(format!(
-                "a picture of {width}x{height} pixels: each side must be 1 to {MAX_SIDE}"
-            ));
-        }
-        if frame.samples == 0 || frame.samples > MAX_SAMPLES {
-            return invalid(format!(
-                "{} samples per axis: must be 1 to {MAX_SAMPLES}",
-                frame.samples
-            ));
-        }
-        if frame.params.len() > MAX_PARAMS {
-            return invalid(format!(
-                "{} parameters: at most {MAX_PARAMS}",
-                frame.params.len()
-            ));
-        }
-        if frame.settings.len() as u64 > self.uniforms.settings.size()
-            || !frame.settings.len().is_multiple_of(4)
-        {
-            return invalid(format!(
-                "{} bytes of settings for a scene that has {}",
-                frame.settings.len(),
+        frame.check()?;
+        let settings = frame.settings.len();
+        if settings as u64 > self.uniforms.settings.size() || !settings.is_multiple_of(4) {
+            let reason = format!(
+                "{settings} bytes of settings for a scene that has {}",
                 self.uniforms.settings.size()
-            ));
-        }
-        let pixel = (frame.view.height / f64::from(height)) as f32;
-        if !(pixel.is_normal() && pixel > 0.0) {
-            return invalid(format!(
-                "a view of height {}: must be a positive number within single precision",
-                frame.view.height
-            ));
-        }
-        if !frame.view.center.iter().all(|c| (*c as f32).is_finite()) {
-            return invalid("the centre of the view must be finite in single precision".into());
+            );
+            return Err(Error::Invalid { reason });
         }
         Ok(())
     }
@@ -398,7 +406,7 @@ fn uniform_layout(visibility: wgpu::ShaderStages) -> [wgpu::BindGroupLayoutEntry
     })
 }
 
-fn view_uniform(frame: &Frame, tile: Tile) -> ViewUniform {
+pub(crate) fn view_uniform(frame: &Frame, tile: Tile) -> ViewUniform {
     ViewUniform {
         center: frame.view.center.map(|c| c as f32),
         size: [frame.size.width as f32, frame.size.height as f32],
@@ -431,8 +439,11 @@ fn place(
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::AtomicBool;
+
     use super::*;
     use crate::AdapterChoice;
+    use crate::executor::{Arithmetic, Painter};
     use pullback_compiler::lower::Precision;
 
     const SIZE: Size = Size {
@@ -517,11 +528,36 @@ mod tests {
             };
             let (value, byte) = (f32::from_le_bytes(*word).clamp(0.0, 1.0), f32::from(*byte));
             let (low, high) = (light(byte - 1.01), light(byte + 1.01));
-            assert!(
-                value == 1.0 || (low..=high).contains(&value),
-                "{value} {byte}"
-            );
+            assert!((low..=high).contains(&value), "{value} {byte}");
         }
+    }
+
+    #[test]
+    fn the_processor_gives_the_same_linear_light() {
+        let Some(gpu) = software() else { return };
+        let (scene, settings) = scene("x^2 - y^2");
+        let program = pullback_compiler::compile("x^2 - y^2").program.unwrap();
+        let frame = frame(&settings, Pipeline::Linear);
+        let (mut found, mut expected) = (Vec::new(), Vec::new());
+        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
+        renderer.render(&frame, &mut found).unwrap();
+        Painter::new(&scene, Arithmetic::Reference, Pipeline::Linear)
+            .unwrap()
+            .render(
+                &frame,
+                &program.pictures()[0].settings,
+                &AtomicBool::new(false),
+                &mut expected,
+            )
+            .unwrap();
+        let words = |bytes: &[u8]| -> Vec<f32> {
+            let words = bytes.as_chunks::<4>().0;
+            words.iter().map(|word| f32::from_le_bytes(*word)).collect()
+        };
+        for (found, expected) in words(&found).into_iter().zip(words(&expected)) {
+            assert!((found - expected).abs() < 1e-4, "{found} {expected}");
+        }
+        assert_eq!(found.len(), expected.len());
     }
 
     #[test]

@@ -195,6 +195,13 @@ impl<'a> Builder<'a> {
         self.depth += 1;
         let value = self.nested(id);
         self.depth -= 1;
+        if self.source == Source::Program {
+            let span = self.file.exprs.span(id);
+            self.graph.cover(span);
+            if let Value::Scalar(node) = value {
+                self.graph.place(node, span);
+            }
+        }
         value
     }
 
@@ -259,6 +266,9 @@ impl<'a> Builder<'a> {
             let right = self.expr(rhs);
             let whole = file.exprs.span(node);
             value = self.binary(op, (&value, span), (&right, file.exprs.span(rhs)), whole);
+            if self.source == Source::Program {
+                self.graph.cover(whole);
+            }
             span = whole;
         }
         value

@@ -67,6 +67,7 @@ pub fn forward(
         let of_args: smallvec::SmallVec<[Option<Id>; 3]> =
             node.args.iter().map(|a| tangents[a.index()]).collect();
         let tangent = tangent(g, prim, &node, id, &of_args)?;
+        g.cover(g.span(id));
         tangents[id.index()] = tangent.filter(|&t| !is_zero(g, t));
     }
     Ok(roots.iter().map(|r| tangents[r.index()]).collect())

@@ -6,11 +6,12 @@ use clap::Args;
 use pullback_compiler::{Program, SceneModule, SettingValue};
 use pullback_runtime::animation::{self, Clip, Container, MAX_FRAMES, Sweep};
 use pullback_runtime::image_file::Format;
-use pullback_runtime::{Error, Frame, Metadata, Renderer, RowSink, Size, View, image_file};
+use pullback_runtime::{Error, Frame, Metadata, RowSink, Size, View, image_file};
 
 use super::failure::Failure;
 use super::overrides::{self, Assignment};
 use super::progress::Progress;
+use super::render::Artist;
 
 /// Most frames in a second.
 const MAX_RATE: f64 = 1000.0;
@@ -106,7 +107,7 @@ impl Animation {
         &self,
         reel: &Reel,
         frames: u32,
-        renderer: &mut Renderer,
+        artist: &mut Artist,
         output: (&Path, Format, &Metadata),
         progress: &mut Progress,
     ) -> Result<(), Failure> {
@@ -134,7 +135,7 @@ impl Animation {
                 time: moment.time,
                 ..reel.still.clone()
             };
-            renderer.render(&frame, sink)?;
+            artist.render(&frame, &moment.settings, sink)?;
             progress.update(u64::from(number) + 1, u64::from(frames));
             Ok(())
         };
