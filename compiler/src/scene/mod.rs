@@ -1,8 +1,14 @@
 //! Scenes: a WGSL template and a settings record each.
 
+mod bands;
+mod checker;
 mod domain;
+mod grid;
+mod implicit;
 mod levels;
+mod logcontours;
 mod setting;
+mod sphere;
 mod surface;
 
 use std::sync::OnceLock;
@@ -43,7 +49,17 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 3] = [levels::SCENE, domain::SCENE, surface::SCENE];
+    static SCENES: [Scene; 9] = [
+        levels::SCENE,
+        logcontours::SCENE,
+        bands::SCENE,
+        implicit::SCENE,
+        domain::SCENE,
+        checker::SCENE,
+        grid::SCENE,
+        sphere::SCENE,
+        surface::SCENE,
+    ];
     &SCENES
 }
 
