@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use pullback_compiler::module::{Evaluator, What};
+use pullback_compiler::scene::Space;
 use pullback_compiler::{Picture, SettingValue};
 
 use crate::render::{Size, View};
@@ -14,8 +15,11 @@ const SHARES: (f64, f64) = (0.6, 0.95);
 /// Level lines from 0 to the scale, as the template draws them.
 const LINES: f64 = 4.0;
 
-/// Sets an automatic `color_scale` from the values that the formula takes in the view, in f64, such that level lines
-/// stand at round values.
+/// Settings of scenes of the plane that are automatic where they are 0, each with how many lines there are to the scale.
+const AUTOMATIC: [(&str, f64); 2] = [("color_scale", 1.0), ("period", LINES)];
+
+/// Sets an automatic `color_scale` or `period` from the values that the formula takes in the view, in f64, such that level
+/// lines and edges of stripes stand at round values.
 pub fn fill_in_scale(
     settings: &mut [SettingValue],
     picture: &Picture,
@@ -24,12 +28,13 @@ pub fn fill_in_scale(
     params: &[f64],
     time: f64,
 ) {
-    let Some(setting) = settings.iter_mut().find(|s| s.spec.name == "color_scale") else {
+    let automatic = settings.iter_mut().find_map(|setting| {
+        let (_, parts) = AUTOMATIC.into_iter().find(|a| a.0 == setting.spec.name)?;
+        (setting.value[0] == 0.0).then_some((setting, parts))
+    });
+    let Some((setting, parts)) = automatic.filter(|_| picture.scene.space == Space::Plane) else {
         return;
     };
-    if setting.value[0] != 0.0 {
-        return;
-    }
     let Ok(mut evaluator) = Evaluator::new(&picture.formula, What::Value) else {
         return;
     };
@@ -49,7 +54,7 @@ pub fn fill_in_scale(
     sizes.retain(|s| *s > 0.0);
     sizes.sort_by(f64::total_cmp);
     let scale = share(&sizes, SHARES.0).max(share(&sizes, SHARES.1) / 4.0);
-    setting.value = DVec3::splat(LINES * round_number(scale / LINES));
+    setting.value = DVec3::splat(LINES * round_number(scale / LINES) / parts);
 }
 
 /// The size below which a share of the sorted sizes lies; 1 where there are none.

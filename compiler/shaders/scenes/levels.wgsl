@@ -10,6 +10,7 @@
 // | major        | u32   | 5                | 0..100     | lines  | every how many lines one is stronger; 0: none |
 // | palette      | u32   | 0                | 0..2       |        | 0 blue-white-red, 1 indigo to cream, 2 paper |
 // | ink          | vec3f | 0.010 0.012 0.02 | 0..1       | linear | colour of all lines |
+// | key          | f32   | 0                | 0..0.5     | height | of the colour key: values from -4 to 4 color_scale; 0: none |
 //
 // Colours are linear rgb. Undefined values (NaN) are a quiet grey hatch; +∞ and -∞ are the ends of the palette
 // with a hatch of the other slope. Where level lines come closer than they are wide they fade to an even tone, and
@@ -36,6 +37,14 @@ struct Settings {
     major: u32,
     palette: u32,
     ink: vec3f,
+    key: f32,
+}
+
+struct Key {
+    place: vec2f,
+    step: vec2f,
+    inside: bool,
+    border: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -52,20 +61,15 @@ fn diverging_ramp(t: f32) -> vec3f { return vec3f(); }
 fn sequential_ramp(t: f32) -> vec3f { return vec3f(); }
 fn line_coverage(offset: f32, width: f32, window: f32) -> f32 { return 0.0; }
 fn line_train(u: f32, duty: f32, window: f32) -> f32 { return 0.0; }
-fn hatch(pixel: vec2f, slope: f32, period: f32, duty: f32, window: f32) -> f32 { return 0.0; }
+fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
+fn sample_window() -> f32 { return 0.0; }
+fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
+fn infinite_colour(pixel: vec2f, colour: vec3f) -> vec3f { return vec3f(); }
+fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key { return Key(); }
+fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
 
 // Level lines may darken an area by no more than this on average, however dense they are.
 const DENSEST: f32 = 0.34;
-
-// World units from the centre of the view. The formula's function adds the centre, in all digits of its tier.
-fn offset_from_pixel(pixel: vec2f) -> vec2f {
-    return (pixel - 0.5 * view.size) * vec2f(view.pixel, -view.pixel);
-}
-
-// Side of one sample's share of a pixel, in pixels: the window of every filter here.
-fn sample_window() -> f32 {
-    return 1.0 / f32(max(view.samples, 1u));
-}
 
 // The scale of the colours, 1 where none is set.
 fn color_scale() -> f32 {
@@ -149,28 +153,33 @@ fn line_opacity(value: f32, rate: f32) -> f32 {
     return max(opacity, zero_line(value, rate));
 }
 
-fn undefined_colour(pixel: vec2f) -> vec3f {
-    return mix(vec3f(0.60), vec3f(0.47), hatch(pixel, 1.0, 7.0, 0.3, sample_window()));
-}
-
-fn infinite_colour(pixel: vec2f, t: f32) -> vec3f {
-    let colour = palette_colour(t);
-    return mix(colour, mix(colour, vec3f(1.0), 0.13), hatch(pixel, -1.0, 7.0, 0.3, sample_window()));
-}
-
-fn shade(pixel: vec2f) -> vec4f {
-    let jet = field_grad(offset_from_pixel(pixel));
+fn colour_of(jet: vec3f, pixel: vec2f) -> vec3f {
     let value = jet.z;
     if is_nan(value) {
-        return vec4f(undefined_colour(pixel), 1.0);
+        return undefined_colour(pixel);
     }
     if is_inf(value) {
-        return vec4f(infinite_colour(pixel, sign(value)), 1.0);
+        return infinite_colour(pixel, palette_colour(sign(value)));
     }
     if is_nan(jet.x) || is_nan(jet.y) {
-        return vec4f(palette_colour(saturate_value(value)), 1.0);
+        return palette_colour(saturate_value(value));
     }
     let rate = min(length2_safe(jet.xy), 1e37) * view.pixel;
     let colour = mean_colour(value, 0.5 * rate * sample_window());
-    return vec4f(mix(colour, settings.ink, line_opacity(value, rate)), 1.0);
+    return mix(colour, settings.ink, line_opacity(value, rate));
+}
+
+// The key's values, and how they change to the right.
+fn key_value(key: Key) -> vec3f {
+    let reach = 4.0 * color_scale();
+    return vec3f(reach * key.step.x / view.pixel, 0.0, reach * key.place.x);
+}
+
+fn shade(pixel: vec2f) -> vec4f {
+    let key = key_at(pixel, settings.key, 8.0);
+    var jet = field_grad(offset_from_pixel(pixel));
+    if key.inside {
+        jet = key_value(key);
+    }
+    return vec4f(with_key_border(colour_of(jet, pixel), key), 1.0);
 }

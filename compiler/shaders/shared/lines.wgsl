@@ -44,3 +44,90 @@ fn hatch(pixel: vec2f, slope: f32, period: f32, duty: f32, window: f32) -> f32 {
     let u = (pixel.x - slope * pixel.y) * 0.7071067811865476 / period;
     return line_train(u, duty, window / period);
 }
+
+// The square wave that is 1 on [2k, 2k + 1) and -1 on [2k + 1, 2k + 2). `window` in units of u; from two on the result is
+// the mean, 0.
+fn square_train(u: f32, window: f32) -> f32 {
+    return 2.0 * line_train(0.5 * u - 0.25, 0.5, 0.5 * window) - 1.0;
+}
+
+// base^n for a base of 1 or more and |n| up to 127, by squaring: exact as long as the result is a whole number below 2²⁴.
+fn whole_power(base: f32, n: u32) -> f32 {
+    var result = 1.0;
+    var factor = base;
+    for (var k = n; k > 0u; k >>= 1u) {
+        if (k & 1u) == 1u {
+            result *= factor;
+        }
+        factor *= factor;
+    }
+    return result;
+}
+
+// u / base^n, exactly rounded where base^|n| is exact.
+fn over_power(u: f32, base: f32, n: i32) -> f32 {
+    let power = whole_power(base, u32(abs(n)));
+    return select(u * power, u / power, n > 0);
+}
+
+// A family of line spacings base^n, each a whole multiple of the one below. Of those spacings that are at least `apart`
+// pixels on the screen, the finest is base^finest; it is base^blend times as far apart as it needs, 0 ≤ blend < 1.
+struct Octave {
+    finest: i32,
+    blend: f32,
+}
+
+// `rate`: change of the coordinate per pixel.
+fn octave_of_rate(rate: f32, apart: f32, base: f32) -> Octave {
+    let place = log2(max(rate * apart, 1e-9)) / log2(base);
+    let finest = ceil(place);
+    return Octave(i32(finest), finest - place);
+}
+
+// Lines of constant width at the multiples of base^n of a coordinate u = whole + part, for all n from `finest` up. The
+// finest ones fade in as the picture is magnified, over `count` octaves (at least two): a line's weight depends on how far
+// it is from its equals on the screen, and is continuous when the finest octave changes.
+fn octave_lines(whole: f32, part: f32, rate: f32, octave: Octave, base: f32, count: u32, width: f32) -> f32 {
+    let steps = f32(max(count, 2u)) - 1.0;
+    var covered = 0.0;
+    for (var j = 0u; j < max(count, 2u); j++) {
+        let n = octave.finest + i32(j);
+        let coarse = over_power(whole, base, n);
+        let u = (coarse - floor(coarse)) + over_power(part, base, n);
+        let per_pixel = over_power(rate, base, n);
+        let weight = min((f32(j) + octave.blend) / steps, 1.0);
+        // past 2²² lines f32 no longer resolves the place between two of them
+        if abs(coarse) < 4194304.0 {
+            covered = max(covered, weight * line_train(u, min(per_pixel * width, 1.0), per_pixel * sample_window()));
+        }
+    }
+    return covered;
+}
+
+// Lines of constant width at the integers of u, which changes by `rate` per pixel. Where they crowd they thin out to an even
+// tone, and they end where f32 no longer resolves the place between two of them.
+fn even_lines(u: f32, rate: f32, width: f32) -> f32 {
+    if abs(u) > 4194304.0 {
+        return 0.0;
+    }
+    let duty = min(rate * width, 1.0);
+    let dimming = min(1.0, CROWDED / max(rate * width, 1e-20));
+    return line_train(u, duty, rate * sample_window()) * dimming * (1.0 - smoothstep(0.5, 4.0, rate));
+}
+
+// Lines may darken an area by no more than this on average, however dense they are.
+const CROWDED: f32 = 0.34;
+
+// Squares of both signs along one coordinate, at two octaves of side, the finer one as strong as it has faded in.
+fn octave_squares(u: f32, rate: f32, octave: Octave, base: f32) -> f32 {
+    return octave.blend * squares_of_side(u, rate, base, octave.finest)
+        + (1.0 - octave.blend) * squares_of_side(u, rate, base, octave.finest + 1);
+}
+
+fn squares_of_side(u: f32, rate: f32, base: f32, n: i32) -> f32 {
+    let place = over_power(u, base, n);
+    if !(abs(place) < 4194304.0) {
+        return 0.0;
+    }
+    return square_train(place, over_power(rate, base, n) * sample_window());
+}

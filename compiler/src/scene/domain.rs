@@ -20,12 +20,7 @@ pub const SCENE: Scene = Scene {
             (POSITIVE, ANY),
             "|f| that is neither darkened nor lightened",
         ),
-        SettingSpec::choice(
-            "palette",
-            &["cubehelix", "oklch", "hsv"],
-            0.0,
-            "colours of the argument",
-        ),
+        SettingSpec::wheel("colours of the argument"),
         SettingSpec::choice(
             "rings",
             &["none", "waves", "steps"],
@@ -62,6 +57,9 @@ pub const SCENE: Scene = Scene {
             "ink",
             [0.010, 0.012, 0.02],
             "colour of the phase lines, linear rgb",
+        ),
+        SettingSpec::key(
+            "height of the colour key as a part of the picture's shorter side; f(z) = z up to 2 on both axes; 0: none",
         ),
         SettingSpec::precision(),
     ],

@@ -50,6 +50,9 @@ pub const SCENE: Scene = Scene {
             [0.010, 0.012, 0.02],
             "colour of all lines, linear rgb",
         ),
+        SettingSpec::key(
+            "height of the colour key as a part of the picture's shorter side; values from -4 to 4 color_scale; 0: none",
+        ),
         SettingSpec::precision(),
     ],
 };

@@ -1,7 +1,11 @@
 //! Scenes: a WGSL template and a settings record each.
 
+mod bands;
+mod checker;
 mod domain;
+mod grid;
 mod levels;
+mod logcontours;
 mod setting;
 mod surface;
 
@@ -43,7 +47,15 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 3] = [levels::SCENE, domain::SCENE, surface::SCENE];
+    static SCENES: [Scene; 7] = [
+        levels::SCENE,
+        logcontours::SCENE,
+        bands::SCENE,
+        domain::SCENE,
+        checker::SCENE,
+        grid::SCENE,
+        surface::SCENE,
+    ];
     &SCENES
 }
 

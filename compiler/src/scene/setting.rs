@@ -134,6 +134,18 @@ impl SettingSpec {
         )
     }
 
+    /// The colours of the argument of a complex number.
+    #[must_use]
+    pub const fn wheel(doc: &'static str) -> Self {
+        Self::choice("palette", &["cubehelix", "oklch", "hsv"], 0.0, doc)
+    }
+
+    /// The height of the colour key; 0: none. `doc` says what the key shows.
+    #[must_use]
+    pub const fn key(doc: &'static str) -> Self {
+        Self::real("key", 0.0, (0.0, 0.5), doc)
+    }
+
     /// The tier that the formula is computed in; `auto` is left to the host.
     #[must_use]
     pub const fn precision() -> Self {
