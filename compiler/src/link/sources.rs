@@ -66,6 +66,8 @@ const SHARED: &str = concat!(
     include_str!("../../shaders/shared/camera.wgsl"),
     include_str!("../../shaders/shared/box.wgsl"),
     include_str!("../../shaders/shared/lighting.wgsl"),
+    include_str!("../../shaders/shared/values.wgsl"),
+    include_str!("../../shaders/shared/space.wgsl"),
 );
 
 const ENTRY: &str = include_str!("../../shaders/shared/entry.wgsl");

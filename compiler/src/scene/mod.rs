@@ -7,6 +7,8 @@ mod grid;
 mod levels;
 mod logcontours;
 mod setting;
+mod slices;
+mod space;
 mod surface;
 
 use std::sync::OnceLock;
@@ -47,7 +49,7 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 7] = [
+    static SCENES: [Scene; 8] = [
         levels::SCENE,
         logcontours::SCENE,
         bands::SCENE,
@@ -55,6 +57,7 @@ pub fn scenes() -> &'static [Scene] {
         checker::SCENE,
         grid::SCENE,
         surface::SCENE,
+        slices::SCENE,
     ];
     &SCENES
 }

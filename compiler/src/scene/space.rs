@@ -1,0 +1,113 @@
+//! Settings that scenes of space share: the box, its camera, planes that cut it, and how values are drawn.
+
+use super::SettingSpec;
+
+/// No bound.
+pub(super) const ANY: f64 = f64::INFINITY;
+
+pub(super) const BOX: SettingSpec = SettingSpec::vec3(
+    "box",
+    [2.0; 3],
+    (1e-6, 1e6),
+    "half size of the box, world units",
+);
+pub(super) const CENTER: SettingSpec = SettingSpec::vec3(
+    "center",
+    [0.0; 3],
+    (-1e6, 1e6),
+    "centre of the box, world units",
+);
+pub(super) const YAW: SettingSpec = SettingSpec::real(
+    "yaw",
+    32.0,
+    (-3600.0, 3600.0),
+    "degrees, of the camera about z, from +x towards +y",
+);
+pub(super) const PITCH: SettingSpec = SettingSpec::real(
+    "pitch",
+    24.0,
+    (-89.0, 89.0),
+    "degrees, of the camera above the ground",
+);
+pub(super) const DISTANCE: SettingSpec = SettingSpec::real(
+    "distance",
+    0.0,
+    (0.0, 1e6),
+    "from the camera to the centre; 0: the box fills the view",
+);
+pub(super) const FOV: SettingSpec = SettingSpec::real(
+    "fov",
+    28.0,
+    (1.0, 120.0),
+    "degrees, across the shorter side of the picture",
+);
+pub(super) const LIGHT_YAW: SettingSpec = SettingSpec::real(
+    "light_yaw",
+    -50.0,
+    (-3600.0, 3600.0),
+    "degrees, of the light about z, from the camera's yaw",
+);
+pub(super) const LIGHT_PITCH: SettingSpec = SettingSpec::real(
+    "light_pitch",
+    52.0,
+    (-90.0, 90.0),
+    "degrees, of the light above the ground",
+);
+pub(super) const BACKGROUND: SettingSpec = SettingSpec::colour(
+    "background",
+    [0.80, 0.82, 0.85],
+    "colour of the horizon, linear rgb",
+);
+pub(super) const EDGE_WIDTH: SettingSpec = SettingSpec::real(
+    "edge_width",
+    1.4,
+    (0.0, 20.0),
+    "pixels, of the box's edges; 0: none",
+);
+
+pub(super) const POSITION: SettingSpec = SettingSpec::real(
+    "position",
+    0.0,
+    (-1.0, 1.0),
+    "of the plane along its normal: -1 and 1 where it leaves the box, 0 in the middle",
+);
+pub(super) const SWEEP: SettingSpec = SettingSpec::real(
+    "sweep",
+    0.0,
+    (0.0, 1.0),
+    "how far the plane swings to both sides of `position` as time passes; 0: it stands still",
+);
+pub(super) const PERIOD: SettingSpec = SettingSpec::real(
+    "period",
+    8.0,
+    (1e-3, 1e6),
+    "seconds, of one swing there and back",
+);
+
+pub(super) const COLOR_SCALE: SettingSpec = SettingSpec::real(
+    "color_scale",
+    0.0,
+    (0.0, ANY),
+    "value at which the colour is 71 % of the way to its end; 0: from the values in the box",
+);
+pub(super) const SPACING: SettingSpec = SettingSpec::real(
+    "spacing",
+    0.0,
+    (0.0, ANY),
+    "value between contour lines; 0: a quarter of color_scale",
+);
+pub(super) const LINE_WIDTH: SettingSpec =
+    SettingSpec::real("line_width", 1.2, (0.0, 20.0), "pixels, of contour lines");
+pub(super) const ZERO_WIDTH: SettingSpec = SettingSpec::real(
+    "zero_width",
+    2.6,
+    (0.0, 20.0),
+    "pixels, of the line f = 0; 0: none",
+);
+pub(super) const LINE_OPACITY: SettingSpec =
+    SettingSpec::real("line_opacity", 0.5, (0.0, 1.0), "of contour lines");
+pub(super) const INK: SettingSpec = SettingSpec::colour(
+    "ink",
+    [0.010, 0.012, 0.02],
+    "colour of contour lines, linear rgb",
+);
