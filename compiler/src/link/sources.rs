@@ -68,6 +68,8 @@ const SHARED: &str = concat!(
     include_str!("../../shaders/shared/lighting.wgsl"),
     include_str!("../../shaders/shared/values.wgsl"),
     include_str!("../../shaders/shared/space.wgsl"),
+    include_str!("../../shaders/shared/march.wgsl"),
+    include_str!("../../shaders/shared/shells.wgsl"),
 );
 
 const ENTRY: &str = include_str!("../../shaders/shared/entry.wgsl");

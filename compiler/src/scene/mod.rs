@@ -6,6 +6,7 @@ mod domain;
 mod grid;
 mod levels;
 mod logcontours;
+mod nested;
 mod setting;
 mod slices;
 mod space;
@@ -49,7 +50,7 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 8] = [
+    static SCENES: [Scene; 9] = [
         levels::SCENE,
         logcontours::SCENE,
         bands::SCENE,
@@ -58,6 +59,7 @@ pub fn scenes() -> &'static [Scene] {
         grid::SCENE,
         surface::SCENE,
         slices::SCENE,
+        nested::SCENE,
     ];
     &SCENES
 }

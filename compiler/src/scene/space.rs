@@ -111,3 +111,60 @@ pub(super) const INK: SettingSpec = SettingSpec::colour(
     [0.010, 0.012, 0.02],
     "colour of contour lines, linear rgb",
 );
+
+pub(super) const LEVEL: SettingSpec = SettingSpec::real(
+    "level",
+    0.0,
+    (-ANY, ANY),
+    "value of f in the middle of the family of levels",
+);
+pub(super) const LEVEL_SPACING: SettingSpec = SettingSpec::real(
+    "spacing",
+    0.0,
+    (0.0, ANY),
+    "value between levels; 0: half of color_scale",
+);
+pub(super) const COUNT: SettingSpec =
+    SettingSpec::integer("count", 5.0, (1.0, 64.0), "number of levels");
+pub(super) const HIGHLIGHT: SettingSpec = SettingSpec::integer(
+    "highlight",
+    0.0,
+    (0.0, 64.0),
+    "number of the highlighted level, from the lowest; 0: the one in the middle",
+);
+pub(super) const HIGHLIGHT_OPACITY: SettingSpec = SettingSpec::real(
+    "highlight_opacity",
+    1.0,
+    (0.0, 1.0),
+    "of the highlighted level",
+);
+pub(super) const GHOST_OPACITY: SettingSpec = SettingSpec::real(
+    "ghost_opacity",
+    0.22,
+    (0.0, 1.0),
+    "of the other levels where they face the camera; 1: all are opaque",
+);
+pub(super) const STEPS: SettingSpec = SettingSpec::integer(
+    "steps",
+    160.0,
+    (8.0, 4096.0),
+    "samples along the diagonal of the box",
+);
+pub(super) const WALL_OPACITY: SettingSpec = SettingSpec::real(
+    "wall_opacity",
+    1.0,
+    (0.0, 1.0),
+    "of what is drawn on the walls",
+);
+pub(super) const LIGHTING: SettingSpec = SettingSpec::real(
+    "lighting",
+    1.0,
+    (0.0, 1.0),
+    "strength of light and shade; 0: flat colours",
+);
+pub(super) const BACKDROP: SettingSpec = SettingSpec::choice(
+    "backdrop",
+    &["ground", "plain"],
+    0.0,
+    "what is behind the box: ground and sky, or one colour",
+);
