@@ -85,7 +85,7 @@ struct March {
     t: f32,
     state: u32,
     hit: bool,
-    level: i32,
+    hit_level: i32,
     hit_t: f32,
     touching: bool,
     near: Probe,
@@ -104,6 +104,7 @@ struct March {
     width: f32,
     before: f32,
     rounds: u32,
+    level: i32,
 }
 
 struct Shells {
@@ -217,7 +218,7 @@ fn seen_in_box(sight: Sight, span: vec2f, pixel: vec2f) -> Seen {
         let t = select(march.hit_t, select(extent, 0.0, k == 0u), wall);
         let jet = field_grad(origin + t * d);
         if !wall {
-            seen = seen_behind(seen, shell_layer(march.level, march.touching, jet.xyz, d, shells));
+            seen = seen_behind(seen, shell_layer(march.hit_level, march.touching, jet.xyz, d, shells));
         } else if k > 0u {
             return seen_wall(seen, jet, span.y, true, sight, shells, pixel);
         } else if span.x > 0.0 {

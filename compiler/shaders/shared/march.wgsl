@@ -27,7 +27,7 @@ struct March {
     t: f32,           // where f is to be evaluated next
     state: u32,
     hit: bool,        // whether a level was met; to be set to false by who has seen it
-    level: i32,       // which
+    hit_level: i32,   // which
     hit_t: f32,       // where
     touching: bool,   // whether f only touches it
     near: Probe,      // how far the ray has been searched
@@ -46,6 +46,7 @@ struct March {
     width: f32,       // of a search for a root, that of the bracket before
     before: f32,      // of a search for a root, the greatest distance from the level at its start
     rounds: u32,
+    level: i32,       // of a search
 }
 
 const MARCH_WALK: u32 = 0u;
@@ -294,6 +295,7 @@ fn dip_on(before: March, probe: Probe, family: Family) -> March {
     let size = max(abs(m.near.u - f32(m.level)), abs(m.far.u - f32(m.level)));
     m.hit = abs(m.nearest.u - f32(m.level)) <= 3e-7 * size;
     m.touching = m.hit;
+    m.hit_level = m.level;
     m.hit_t = m.nearest.t;
     return step_on(m, family);
 }
@@ -365,6 +367,7 @@ fn root_found(before: March, family: Family) -> March {
         m.hit = true;
         m.touching = false;
         m.near = nearer_end(m);
+        m.hit_level = m.level;
         m.hit_t = m.near.t;
         m.band = select(m.level, m.level + 1, rising);
     } else {

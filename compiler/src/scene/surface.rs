@@ -11,7 +11,12 @@ pub const SCENE: Scene = Scene {
     settings: &[
         space::BOX,
         space::CENTER,
-        SettingSpec::real("level", 0.0, (-space::ANY, space::ANY), "value of f on the surface"),
+        SettingSpec::real(
+            "level",
+            0.0,
+            (-space::ANY, space::ANY),
+            "value of f on the surface",
+        ),
         SettingSpec::integer(
             "steps",
             160.0,

@@ -1,0 +1,9 @@
+//! Pictures of scenes of space against closed forms and f64 references of our own: where planes, lines, layers and light
+//! have to be.
+
+mod camera;
+mod colour;
+mod drawing;
+mod lines;
+mod nested;
+mod slices;
