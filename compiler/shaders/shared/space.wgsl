@@ -61,20 +61,42 @@ fn plane_offset(n: vec3f, center: vec3f, half_size: vec3f, position: f32) -> f32
     return dot(n, center) + position * dot(abs(n), half_size);
 }
 
+// The part of a ray's way through a box that is on the side n·p ≤ offset of a plane.
+struct Kept {
+    start: f32,
+    end: f32,          // less than `start` where nothing is kept
+    cut_first: bool,   // whether it begins at the plane
+    cut_last: bool,    // whether it ends there
+}
+
+// `span` is where the ray is in the box, in front of the camera.
+fn kept_part(ray: Ray, span: vec2f, n: vec3f, offset: f32) -> Kept {
+    let rate = dot(n, ray.direction);
+    if abs(rate) < 1e-7 {
+        let inside = dot(n, ray.origin) <= offset;
+        return Kept(span.x, select(span.x - 1.0, span.y, inside), false, false);
+    }
+    let t = (offset - dot(n, ray.origin)) / rate;
+    if rate < 0.0 {
+        return Kept(max(span.x, t), span.y, t > span.x, false);
+    }
+    return Kept(span.x, min(span.y, t), false, t < span.y);
+}
+
 // A position that swings by `sweep` to both sides in `period` seconds, kept in -1..1.
 fn swept_position(position: f32, sweep: f32, period: f32) -> f32 {
     let turn = view.time / max(period, 1e-6);
     return clamp(position + sweep * sin(6.283185307179586 * (turn - floor(turn))), -1.0, 1.0);
 }
 
-// Coverage by the edges of the box at the point of one of its faces, with normal n, at distance t.
+// Coverage by the edges of the box on the plane with normal n, a face or one that cuts it, at distance t.
 fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 {
     let p = sight.ray.origin + t * sight.ray.direction;
     let gap = max(half_size - abs(p - center), vec3f(0.0));
     var covered = 0.0;
     for (var k = 0u; k < 3u; k++) {
         let axis = unit_axis(k);
-        if abs(dot(n, axis)) < 0.5 {
+        if abs(dot(n, axis)) < 0.99 {
             covered = max(covered, line_coverage(pixels_away(gap[k], screen_rate(sight, t, n, axis)), width, sample_window()));
         }
     }
@@ -149,6 +171,6 @@ fn stage_colour(ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) ->
     let reach = 0.30 * length(half_size.xy);
     let aside = length(max(abs(p.xy - center.xy) - half_size.xy, vec2f(0.0)));
     let away = length(p.xy - center.xy) / max(length(half_size), 1e-20);
-    let light = 1.0 - 0.30 * exp2(-2.5 * aside / reach);
+    let light = 1.0 - 0.22 * exp2(-2.5 * aside / reach);
     return mix(background * vec3f(0.90, 0.89, 0.87) * light, sky, 1.0 - exp2(-0.012 * away * away));
 }

@@ -2,6 +2,7 @@
 
 mod bands;
 mod checker;
+mod cutaway;
 mod domain;
 mod grid;
 mod levels;
@@ -50,7 +51,7 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 9] = [
+    static SCENES: [Scene; 10] = [
         levels::SCENE,
         logcontours::SCENE,
         bands::SCENE,
@@ -60,6 +61,7 @@ pub fn scenes() -> &'static [Scene] {
         surface::SCENE,
         slices::SCENE,
         nested::SCENE,
+        cutaway::SCENE,
     ];
     &SCENES
 }

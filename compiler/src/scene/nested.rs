@@ -19,12 +19,7 @@ pub const SCENE: Scene = Scene {
         space::GHOST_OPACITY,
         space::COLOR_SCALE,
         space::STEPS,
-        SettingSpec::real(
-            "isoline_width",
-            1.4,
-            (0.0, 20.0),
-            "pixels, of the lines on the walls",
-        ),
+        space::ISOLINE_WIDTH,
         space::WALL_OPACITY,
         space::LIGHTING,
         space::YAW,

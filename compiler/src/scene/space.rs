@@ -168,3 +168,22 @@ pub(super) const BACKDROP: SettingSpec = SettingSpec::choice(
     0.0,
     "what is behind the box: ground and sky, or one colour",
 );
+
+pub(super) const NORMAL: SettingSpec = SettingSpec::vec3(
+    "normal",
+    [1.0, 0.0, 0.0],
+    (-1e6, 1e6),
+    "of the plane, towards what is cut away; its length does not count",
+);
+pub(super) const ISOLINE_WIDTH: SettingSpec = SettingSpec::real(
+    "isoline_width",
+    1.4,
+    (0.0, 20.0),
+    "pixels, of the lines on the walls",
+);
+pub(super) const CONTOUR_SPACING: SettingSpec = SettingSpec::real(
+    "contour_spacing",
+    0.0,
+    (0.0, ANY),
+    "value between contour lines on the cut; 0: a quarter of color_scale",
+);

@@ -3,6 +3,7 @@
 
 mod camera;
 mod colour;
+mod cutaway;
 mod drawing;
 mod lines;
 mod nested;
