@@ -70,6 +70,7 @@ const SHARED: &str = concat!(
     include_str!("../../shaders/shared/space.wgsl"),
     include_str!("../../shaders/shared/march.wgsl"),
     include_str!("../../shaders/shared/shells.wgsl"),
+    include_str!("../../shaders/shared/medium.wgsl"),
 );
 
 const ENTRY: &str = include_str!("../../shaders/shared/entry.wgsl");

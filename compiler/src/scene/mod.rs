@@ -12,6 +12,8 @@ mod setting;
 mod slices;
 mod space;
 mod surface;
+mod volume;
+mod volumecut;
 
 use std::sync::OnceLock;
 
@@ -51,7 +53,7 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 10] = [
+    static SCENES: [Scene; 12] = [
         levels::SCENE,
         logcontours::SCENE,
         bands::SCENE,
@@ -62,6 +64,8 @@ pub fn scenes() -> &'static [Scene] {
         slices::SCENE,
         nested::SCENE,
         cutaway::SCENE,
+        volume::SCENE,
+        volumecut::SCENE,
     ];
     &SCENES
 }

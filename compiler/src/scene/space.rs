@@ -187,3 +187,81 @@ pub(super) const CONTOUR_SPACING: SettingSpec = SettingSpec::real(
     (0.0, ANY),
     "value between contour lines on the cut; 0: a quarter of color_scale",
 );
+
+pub(super) const EXTINCTION_SCALE: SettingSpec = SettingSpec::real(
+    "color_scale",
+    0.0,
+    (0.0, ANY),
+    "|f| where the medium has the extinction of `density`; 0: from the values in the box",
+);
+pub(super) const POWER: SettingSpec = SettingSpec::real(
+    "power",
+    2.0,
+    (0.05, 16.0),
+    "extinction is density (|f|/color_scale)^power: above 1, haze vanishes and cores stand out",
+);
+pub(super) const DENSITY: SettingSpec = SettingSpec::real(
+    "density",
+    0.4,
+    (0.0, 1e6),
+    "optical depth of half the shortest side of the box where |f| = color_scale",
+);
+pub(super) const SIGNS: SettingSpec = SettingSpec::choice(
+    "signs",
+    &["both", "positive", "negative"],
+    0.0,
+    "the values that are seen",
+);
+pub(super) const POSITIVE: SettingSpec = SettingSpec::colour(
+    "positive",
+    [1.0, 0.22, 0.02],
+    "colour that f = color_scale emits, linear rgb; larger values up to twice as much",
+);
+pub(super) const NEGATIVE: SettingSpec = SettingSpec::colour(
+    "negative",
+    [0.02, 0.18, 1.0],
+    "colour that f = -color_scale emits, linear rgb",
+);
+pub(super) const CORE: SettingSpec =
+    SettingSpec::real("core", 0.12, (0.0, 1.0), "how far large values are white");
+pub(super) const EMISSION_LIGHTING: SettingSpec = SettingSpec::real(
+    "lighting",
+    0.6,
+    (0.0, 1.0),
+    "how far the direction of the gradient modulates the emission, as if lit; 0: not at all",
+);
+pub(super) const EXPOSURE: SettingSpec = SettingSpec::real(
+    "exposure",
+    1.1,
+    (0.0, 1e6),
+    "factor of the radiance before the tone curve",
+);
+pub(super) const TONE: SettingSpec = SettingSpec::choice(
+    "tone",
+    &["reinhard", "none"],
+    0.0,
+    "tone curve: c/(1 + c), or cut off at 1",
+);
+pub(super) const GAMMA: SettingSpec = SettingSpec::real(
+    "gamma",
+    1.0,
+    (0.1, 10.0),
+    "exponent 1/gamma after the tone curve, before sRGB",
+);
+pub(super) const JITTER: SettingSpec = SettingSpec::real(
+    "jitter",
+    1.0,
+    (0.0, 1.0),
+    "how far the samples of neighbouring pixels are displaced against one another; 0: not at all",
+);
+pub(super) const STRETCHES: SettingSpec = SettingSpec::integer(
+    "steps",
+    200.0,
+    (4.0, 8192.0),
+    "stretches that the diagonal of the box is divided into",
+);
+pub(super) const DARK: SettingSpec = SettingSpec::colour(
+    "background",
+    [0.004, 0.005, 0.008],
+    "colour behind the box, linear rgb",
+);
