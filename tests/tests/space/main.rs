@@ -5,6 +5,8 @@ mod camera;
 mod colour;
 mod cutaway;
 mod drawing;
+mod extremes;
 mod lines;
 mod nested;
 mod slices;
+mod volume;
