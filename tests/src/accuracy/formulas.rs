@@ -48,7 +48,7 @@ macro_rules! gallery {
     };
 }
 
-const GALLERY: [(&str, &str, &str); 47] = gallery![
+const GALLERY: [(&str, &str, &str); 52] = gallery![
     "barth-sextic",
     "bipolar",
     "blaschke",
@@ -56,6 +56,7 @@ const GALLERY: [(&str, &str, &str); 47] = gallery![
     "cardinal-sine",
     "cayley",
     "cells",
+    "charges",
     "chladni",
     "chmutov",
     "clebsch",
@@ -75,14 +76,18 @@ const GALLERY: [(&str, &str, &str); 47] = gallery![
     "lemniscate",
     "mandelbrot",
     "mandelbulb",
+    "neovius",
     "newton",
     "newton-basins",
     "norms",
+    "orbital",
     "parabolic",
     "peaks",
     "pebble",
     "rational",
+    "resonance",
     "saddle",
+    "schwarz-family",
     "schwarz-p",
     "sin-rings",
     "smooth-union",
