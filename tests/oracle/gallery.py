@@ -443,6 +443,23 @@ def kifs(x, y, z):
     return (hypot3(x, y, z) - mp.mpf("1.25")) / mp.mpf("1.75") ** 6
 
 
+def smin(a, b, width):
+    k = mp.mpf(width)
+    h = clamp((b - a) / (2 * k) + mp.mpf("0.5"), 0, 1)
+    return b * (1 - h) + a * h - k * h * (1 - h)
+
+
+def ember(x, y, z):
+    u, v, w = (a + mp.mpf("0.06") * sin(7 * b) for a, b in ((x, z), (y, x), (z, y)))
+    for _ in range(2):
+        u, v, w = (absolute(a) - mp.mpf(f) for a, f in zip((u, v, w), ("0.55", "0.35", "0.4")))
+        u, v = turned(u, v, "0.6")
+        v, w = turned(v, w, "0.4")
+        u, v, w = (mp.mpf("1.6") * a for a in (u, v, w))
+    rods = smin(smin(hypot(v, w), hypot(u, w), "0.2"), hypot(u, v), "0.2")
+    return smin((rods - mp.mpf("0.09")) / mp.mpf("1.6") ** 2, hypot3(x, y, z) - mp.mpf("0.35"), "0.3")
+
+
 def sponge(x, y, z):
     for _ in range(4):
         x, y, z = absolute(x), absolute(y), absolute(z)
@@ -495,6 +512,7 @@ def resonance(x, y, z):
 
 
 SPACE = {
+    "ember": (ember, 2, [(0.35, 0, 0), (0.55, 0.35, 0.4), (0, 0, 0), (0.25, 0.5, 0.75)]),
     "charges": (charges, 2, [(1.25, 0.125, 0), (-0.5, 1, 0.25), (-0.5, -0.75, 0), (0, 0, 0)]),
     "schwarz-family": (lambda x, y, z: cos(PI * x) + cos(PI * y) + cos(PI * z), 1.5, [(0, 0, 0), (0.5, 0.5, 0.5), (1, 0, 0), (1, 1, 0)]),
     "neovius": (lambda x, y, z: 3 * (cos(x) + cos(y) + cos(z)) + 4 * cos(x) * cos(y) * cos(z), 4.5, [(0, 0, 0), (1.5707964, 1.5707964, 1.5707964), (3.1415927, 0, 0)]),

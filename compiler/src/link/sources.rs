@@ -71,6 +71,7 @@ const SHARED: &str = concat!(
     include_str!("../../shaders/shared/march.wgsl"),
     include_str!("../../shaders/shared/shells.wgsl"),
     include_str!("../../shaders/shared/medium.wgsl"),
+    include_str!("../../shaders/shared/glow.wgsl"),
 );
 
 const ENTRY: &str = include_str!("../../shaders/shared/entry.wgsl");

@@ -4,6 +4,7 @@ mod bands;
 mod checker;
 mod cutaway;
 mod domain;
+mod glow;
 mod grid;
 mod levels;
 mod logcontours;
@@ -53,7 +54,7 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 12] = [
+    static SCENES: [Scene; 13] = [
         levels::SCENE,
         logcontours::SCENE,
         bands::SCENE,
@@ -66,6 +67,7 @@ pub fn scenes() -> &'static [Scene] {
         cutaway::SCENE,
         volume::SCENE,
         volumecut::SCENE,
+        glow::SCENE,
     ];
     &SCENES
 }

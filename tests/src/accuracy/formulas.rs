@@ -48,7 +48,7 @@ macro_rules! gallery {
     };
 }
 
-const GALLERY: [(&str, &str, &str); 52] = gallery![
+const GALLERY: [(&str, &str, &str); 53] = gallery![
     "barth-sextic",
     "bipolar",
     "blaschke",
@@ -63,6 +63,7 @@ const GALLERY: [(&str, &str, &str); 52] = gallery![
     "ding-dong",
     "dipole",
     "dome",
+    "ember",
     "essential",
     "gyroid",
     "heart",
