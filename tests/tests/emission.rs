@@ -535,6 +535,11 @@ fn scenes_of_space_carry_nothing_of_one_another() {
             &["field_grad", "matter_of", "contour_opacity"],
             &["field_ray", "march_on", "mean_value_colour"],
         ),
+        (
+            "glow",
+            &["field_grad", "mean_glow"],
+            &["field_ray", "march_on", "matter_of", "screen_rate"],
+        ),
     ] {
         let text = format!("f(x, y, z) = x y + z\nshow {scene}(f)");
         let program = program(&text, &text);

@@ -88,19 +88,15 @@ fn shortest_side() -> f32 {
     return min(settings.box.x, min(settings.box.y, settings.box.z));
 }
 
-// The field as a distance; FARTHEST where it is not known.
+// The field as a distance, by its slope, which is 1 where it is one; FARTHEST where that is not known.
 fn distance_at(p: vec3f) -> f32 {
     let jet = field_grad(p);
-    if !is_finite(jet.w) {
+    let directed = is_finite(jet.x) && is_finite(jet.y) && is_finite(jet.z);
+    if !is_finite(jet.w) || (settings.estimate == 0u && !directed) {
         return FARTHEST;
     }
-    if settings.estimate == 1u {
-        return clamp(jet.w, -FARTHEST, FARTHEST);
-    }
-    if !(is_finite(jet.x) && is_finite(jet.y) && is_finite(jet.z)) {
-        return FARTHEST;
-    }
-    return clamp(jet.w / max(length3_safe(jet.xyz), 1e-37), -FARTHEST, FARTHEST);
+    let slope = select(length3_safe(jet.xyz), 1.0, settings.estimate == 1u);
+    return clamp(jet.w / max(slope, 1e-37), -FARTHEST, FARTHEST);
 }
 
 // Colour of the light at a distance from the surface.

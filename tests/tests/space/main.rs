@@ -6,6 +6,7 @@ mod colour;
 mod cutaway;
 mod drawing;
 mod extremes;
+mod glow;
 mod lines;
 mod nested;
 mod slices;
