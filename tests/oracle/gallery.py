@@ -496,7 +496,7 @@ def pebble(x, y, z):
     return hypot3(x, y, z) - 1 + mp.mpf("0.3") * noise.noise([3 * x, 3 * y, 3 * z])
 
 
-def charges(x, y, z):
+def multipole(x, y, z):
     a, b = mp.mpf("1.25"), mp.mpf("0.5")
     return 1 / hypot3(x - a, y, z) + 1 / hypot3(x + b, y - 1, z) - 2 / hypot3(x + b, y + 1, z)
 
@@ -513,7 +513,7 @@ def resonance(x, y, z):
 
 SPACE = {
     "ember": (ember, 2, [(0.35, 0, 0), (0.55, 0.35, 0.4), (0, 0, 0), (0.25, 0.5, 0.75)]),
-    "charges": (charges, 2, [(1.25, 0.125, 0), (-0.5, 1, 0.25), (-0.5, -0.75, 0), (0, 0, 0)]),
+    "multipole": (multipole, 2, [(1.25, 0.125, 0), (-0.5, 1, 0.25), (-0.5, -0.75, 0), (0, 0, 0)]),
     "schwarz-family": (lambda x, y, z: cos(PI * x) + cos(PI * y) + cos(PI * z), 1.5, [(0, 0, 0), (0.5, 0.5, 0.5), (1, 0, 0), (1, 1, 0)]),
     "neovius": (lambda x, y, z: 3 * (cos(x) + cos(y) + cos(z)) + 4 * cos(x) * cos(y) * cos(z), 4.5, [(0, 0, 0), (1.5707964, 1.5707964, 1.5707964), (3.1415927, 0, 0)]),
     "orbital": (orbital, 27, [(0, 0, 9), (3, 4, 0), (6, 0, 4.6475801)]),

@@ -167,6 +167,8 @@ const TOKENS: [&str; 180] = [
     "levels",
     "domain",
     "surface",
+    "cutaway",
+    "volume",
     "height",
     "iterate",
     "product",

@@ -12,11 +12,11 @@ const CAMERA: Camera = Camera {
     pitch: 24.0,
     fov: 24.0,
     distance: 12.0,
-    size: [64, 48],
+    size: [96, 72],
 };
 
-/// Side of the blocks of pixels whose means are compared: 8 bits with their dither tell a mean of 64 well.
-const BLOCK: u32 = 8;
+/// Side of the blocks of pixels whose means are compared: 8 bits with their dither tell a mean of 36 well.
+const BLOCK: u32 = 6;
 /// Steps of a picture that says nothing.
 const STEPS: u32 = 200;
 
@@ -67,8 +67,8 @@ const CASES: [Case; 6] = [
     },
 ];
 
-const POSITIVE: Rgb = [0.4, 0.2, 0.1];
-const NEGATIVE: Rgb = [0.1, 0.2, 0.4];
+const POSITIVE: Rgb = [0.48, 0.4, 0.3];
+const NEGATIVE: Rgb = [0.3, 0.4, 0.48];
 
 impl Case {
     fn source(&self, steps: u32, more: &str) -> String {
@@ -138,6 +138,7 @@ fn advance(rate: &impl Fn(f64, [f64; 4]) -> [f64; 4], t: f64, y: [f64; 4], h: f6
 /// The greatest relative error of the linear light of a block of pixels, over blocks that are neither dark nor white.
 fn worst(picture: &Picture, wanted: impl Fn(u32, u32) -> Rgb) -> f64 {
     let mut worst = 0.0f64;
+    let mut count = 0;
     let [columns, rows] = CAMERA.size.map(|side| side / BLOCK);
     for block in 0..columns * rows {
         let (left, top) = (block % columns * BLOCK, block / columns * BLOCK);
@@ -147,7 +148,7 @@ fn worst(picture: &Picture, wanted: impl Fn(u32, u32) -> Rgb) -> f64 {
             let (x, y) = (left + pixel % BLOCK, top + pixel / BLOCK);
             let (found, linear) = (picture.srgb(x, y), wanted(x, y));
             for k in 0..3 {
-                inside[k] &= linear[k] > 0.02 && linear[k] < 0.95;
+                inside[k] &= linear[k] > 0.12 && linear[k] < 0.95;
                 sums[k][0] += found[k];
                 sums[k][1] += encoded(linear[k]);
             }
@@ -156,8 +157,10 @@ fn worst(picture: &Picture, wanted: impl Fn(u32, u32) -> Rgb) -> f64 {
             let [found, wanted] =
                 sums[k].map(|s| crate::colour::decoded(s / f64::from(BLOCK * BLOCK)));
             worst = worst.max((found / wanted - 1.0).abs());
+            count += 1;
         }
     }
+    assert!(count >= 10, "{count} blocks");
     worst
 }
 
