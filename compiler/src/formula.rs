@@ -19,6 +19,15 @@ pub struct Input {
     pub ty: Type,
 }
 
+/// What a formula computes, as IR.
+#[derive(Clone, Debug)]
+pub struct Form {
+    /// The IR.
+    pub graph: Graph,
+    /// The value: one node, or the components of a vector.
+    pub value: SmallVec<[Id; 4]>,
+}
+
 /// A function or bare formula with resolved types.
 #[derive(Clone, Debug)]
 pub struct Formula {
@@ -34,16 +43,33 @@ pub struct Formula {
     pub ty: Type,
     /// Where it stands in the text.
     pub span: Span,
-    /// Which stability rewrites are done where it is compiled for the GPU. The graph itself is as written.
+    /// Which stability rewrites are done where it is compiled for the GPU. The graph itself is as written, the
+    /// derivatives that stand in it those of what is written.
     pub rewrites: Rewrites,
+    /// The formula with those derivatives taken of expressions that were rewritten before, where there are such; made
+    /// with [`Self::rewrites`] by the compiler. Nothing else in it is rewritten.
+    pub derived: Option<Form>,
 }
 
 impl Formula {
-    /// The same formula with other stability rewrites.
+    /// The same formula with other stability rewrites. Derivatives that stand in it are then those of what is written,
+    /// as only the program's text can be compiled with others: `Program::with_rewrites` does that.
     #[must_use]
     pub fn with_rewrites(mut self, rewrites: Rewrites) -> Self {
+        if rewrites != self.rewrites {
+            self.derived = None;
+        }
         self.rewrites = rewrites;
         self
+    }
+
+    /// What is compiled for the GPU, before the rewrites of the whole.
+    #[must_use]
+    pub fn to_compile(&self) -> (&Graph, &[Id]) {
+        match &self.derived {
+            Some(form) if self.rewrites.any() => (&form.graph, &form.value),
+            _ => (&self.graph, &self.value),
+        }
     }
 
     /// The formula with those rewrites done that come before it is differentiated.
@@ -52,8 +78,9 @@ impl Formula {
         if !self.rewrites.any() {
             return Cow::Borrowed(self);
         }
-        let stable = stabilise(&self.graph, &self.value, self.rewrites, Phase::Early);
-        if stable.applied.is_empty() {
+        let (graph, value) = self.to_compile();
+        let stable = stabilise(graph, value, self.rewrites, Phase::Early);
+        if stable.applied.is_empty() && self.derived.is_none() {
             return Cow::Borrowed(self);
         }
         Cow::Owned(Self {
@@ -61,6 +88,7 @@ impl Formula {
             inputs: self.inputs.clone(),
             graph: stable.graph,
             value: stable.roots.into(),
+            derived: None,
             ..*self
         })
     }
@@ -120,8 +148,11 @@ pub fn argument_value(graph: &mut Graph, first: usize, ty: Type) -> Value {
         .into_iter()
         .enumerate()
         .map(|(k, scalar)| Formula::leaf(graph, first + k, scalar));
-    match ty {
+    let value = match ty {
         Type::Vector(_) => Value::Vector(leaves.collect()),
         _ => leaves.map(Value::Scalar).next().unwrap_or(Value::Error),
-    }
+    };
+    // it stands in the text where it is first used
+    graph.cover(Span::default());
+    value
 }

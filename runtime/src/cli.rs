@@ -1,8 +1,10 @@
 //! Arguments, and what each command does.
 
 mod accuracy;
+mod animate;
 mod check;
 mod console;
+mod diff;
 mod doctor;
 mod emit;
 mod eval;
@@ -12,11 +14,14 @@ mod fmt;
 mod functions;
 mod json;
 mod overrides;
+mod place;
+mod probe;
 mod progress;
 mod render;
 mod scenes;
 mod source;
 mod spelling;
+mod subject;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -31,6 +36,7 @@ use pullback_runtime::{AdapterChoice, Capabilities, Gpu};
 pub(crate) use console::Console;
 use failure::Failure;
 use overrides::Assignment;
+use place::Place;
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -71,6 +77,12 @@ enum Command {
     /// Evaluate a formula at points
     #[command(after_help = EXIT_CODES)]
     Eval(eval::EvalArguments),
+    /// Compare two pictures, in numbers and to the eye
+    #[command(after_help = diff::EXIT_CODES)]
+    Diff(diff::DiffArguments),
+    /// Show what is computed on the way to a pixel, and where machines part
+    #[command(after_help = EXIT_CODES)]
+    Probe(probe::ProbeArguments),
     /// Say what this machine offers and what is missing
     #[command(after_help = EXIT_CODES)]
     Doctor(doctor::DoctorArguments),
@@ -114,6 +126,15 @@ struct Settings {
 /// Where to compute.
 #[derive(Debug, Args)]
 struct Device {
+    /// The graphics adapter: auto, gpu, software, or a part of its name; or the processor: reference (f64), ieee32 (exact
+    /// single precision)
+    #[arg(long, default_value = "auto", value_name = "NAME")]
+    adapter: Place,
+}
+
+/// Which graphics adapter to use.
+#[derive(Debug, Args)]
+struct Adapter {
     /// The graphics adapter: auto, gpu, software, or a part of its name
     #[arg(long, default_value = "auto", value_name = "NAME")]
     adapter: AdapterChoice,
@@ -214,8 +235,8 @@ fn set_precision(settings: &[SettingValue]) -> Option<Precision> {
 }
 
 /// Opens the adapter, and says which it is.
-fn open(device: &Device, console: &Console) -> Result<Gpu, Failure> {
-    let gpu = Gpu::open(&device.adapter)?;
+fn open(choice: &AdapterChoice, console: &Console) -> Result<Gpu, Failure> {
+    let gpu = Gpu::open(choice)?;
     console.note(&format!("adapter: {}", gpu.adapter()));
     Ok(gpu)
 }
@@ -277,6 +298,8 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
         Command::Fmt(arguments) => fmt::run(&arguments, console),
         Command::Explain(arguments) => explain::run(&arguments, console),
         Command::Eval(arguments) => eval::run(&arguments, console),
+        Command::Diff(arguments) => diff::run(&arguments, console),
+        Command::Probe(arguments) => probe::run(&arguments, console),
         Command::Doctor(arguments) => doctor::run(&arguments, console),
         Command::Accuracy(arguments) => accuracy::run(&arguments, console),
         Command::Functions(arguments) => functions::run(&arguments),

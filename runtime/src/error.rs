@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::device::{AdapterChoice, AdapterSummary};
+use crate::executor::Fault;
 
 /// A failure of the device, of the environment, or of input and output.
 #[derive(Debug)]
@@ -47,6 +48,8 @@ pub enum Error {
         /// What is wrong with it.
         reason: String,
     },
+    /// The processor cannot run the shader, or gave up.
+    Executor(Fault),
     /// Reading or writing failed.
     Io(std::io::Error),
 }
@@ -82,6 +85,7 @@ impl fmt::Display for Error {
                 )
             }
             Self::Invalid { reason } => f.write_str(reason),
+            Self::Executor(fault) => fault.fmt(f),
             Self::Io(error) => error.fmt(f),
         }
     }
@@ -91,8 +95,15 @@ impl std::error::Error for Error {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Io(error) => Some(error),
+            Self::Executor(fault) => Some(fault),
             _ => None,
         }
+    }
+}
+
+impl From<Fault> for Error {
+    fn from(fault: Fault) -> Self {
+        Self::Executor(fault)
     }
 }
 

@@ -1,7 +1,13 @@
-//! PNG files, written row by row, complete or not at all, with a note of how the picture came about.
+//! PNG and OpenEXR files, complete or not at all, with a note of how the picture came about.
+
+mod linear;
+
+pub use linear::MAX_LINEAR_PIXELS;
 
 use std::io::{self, Write};
 use std::path::Path;
+
+use linear::{Depth, Png16Rows};
 
 use crate::{AtomicFile, Error, RowSink, Size};
 
@@ -16,6 +22,75 @@ const QUICK_FROM: u64 = 4_000_000;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Metadata(pub Vec<(&'static str, String)>);
 
+/// What a picture's file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// PNG, 8 bits of sRGB.
+    Png8,
+    /// PNG, 16 bits of sRGB.
+    Png16,
+    /// OpenEXR, linear light and alpha in binary16.
+    ExrHalf,
+    /// OpenEXR, linear light and alpha in binary32.
+    ExrFloat,
+}
+
+impl Format {
+    /// The format that a file's name and the wanted bits of a number ask for.
+    ///
+    /// # Errors
+    /// The file cannot hold numbers of so many bits.
+    pub fn of(path: &Path, bits: Option<u32>) -> Result<Self, String> {
+        let is_exr = path
+            .extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
+        match (is_exr, bits) {
+            (false, None | Some(8)) => Ok(Self::Png8),
+            (false, Some(16)) => Ok(Self::Png16),
+            (true, Some(16)) => Ok(Self::ExrHalf),
+            (true, None | Some(32)) => Ok(Self::ExrFloat),
+            (false, Some(bits)) => Err(format!("a PNG has numbers of 8 or 16 bits, not {bits}")),
+            (true, Some(bits)) => Err(format!(
+                "an OpenEXR file has numbers of 16 or 32 bits, not {bits}"
+            )),
+        }
+    }
+
+    /// Whether it is made from rows of linear `f32`; 8 bits of sRGB otherwise.
+    #[must_use]
+    pub fn is_linear(self) -> bool {
+        self != Self::Png8
+    }
+}
+
+/// Writes a picture at `path` with the rows that `draw` gives; without all of them there will be no file.
+///
+/// # Errors
+/// Those of `draw`, [`Error::Io`], and [`Error::Invalid`] for more than [`MAX_LINEAR_PIXELS`] in an OpenEXR file.
+pub fn write(
+    path: &Path,
+    format: Format,
+    size: Size,
+    metadata: &Metadata,
+    draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let bytes = match format {
+        Format::Png8 => return write_png(path, size, metadata, draw),
+        Format::Png16 => {
+            let mut file = AtomicFile::create(path)?;
+            encode_png(&mut file, size, Depth::Sixteen, metadata, draw)?;
+            file.commit()?;
+            return Ok(());
+        }
+        Format::ExrHalf => linear::exr(size, Depth::Sixteen, metadata, draw)?,
+        Format::ExrFloat => linear::exr(size, Depth::ThirtyTwo, metadata, draw)?,
+    };
+    let mut file = AtomicFile::create(path)?;
+    file.write_all(&bytes)?;
+    file.commit()?;
+    Ok(())
+}
+
 /// Writes a PNG in 8-bit sRGB at `path` with the rows that `draw` gives; without all of them there will be no file.
 ///
 /// # Errors
@@ -27,18 +102,16 @@ pub fn write_png(
     draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let mut file = AtomicFile::create(path)?;
-    encode_png(&mut file, size, metadata, draw)?;
+    encode_png(&mut file, size, Depth::Eight, metadata, draw)?;
     file.commit()?;
     Ok(())
 }
 
-/// The same into any output.
-///
-/// # Errors
-/// Those of `draw`, and [`Error::Io`].
-pub fn encode_png(
+/// The same into any output, from rows of linear `f32` for a depth of 16 bits.
+fn encode_png(
     output: &mut dyn Write,
     size: Size,
+    depth: Depth,
     metadata: &Metadata,
     draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
 ) -> Result<(), Error> {
@@ -46,7 +119,7 @@ pub fn encode_png(
         output,
         failure: None,
     };
-    let drawn = encode(&mut output, size, metadata, draw);
+    let drawn = encode(&mut output, size, depth, metadata, draw);
     match (drawn, output.failure) {
         // The encoder passes on the text of a failure alone.
         (Err(Error::Io(_)), Some(failure)) => Err(Error::Io(failure)),
@@ -57,12 +130,16 @@ pub fn encode_png(
 fn encode(
     output: &mut Watched,
     size: Size,
+    depth: Depth,
     metadata: &Metadata,
     draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let mut encoder = png::Encoder::new(output, size.width, size.height);
     encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_depth(match depth {
+        Depth::Eight => png::BitDepth::Eight,
+        Depth::Sixteen | Depth::ThirtyTwo => png::BitDepth::Sixteen,
+    });
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     if u64::from(size.width) * u64::from(size.height) > QUICK_FROM {
         encoder.set_compression(png::Compression::Fast);
@@ -79,12 +156,19 @@ fn encode(
     }
     let mut writer = encoder.write_header().map_err(io_error)?;
     {
-        let mut sink = PngRows {
-            stream: writer.stream_writer_with_size(CHUNK).map_err(io_error)?,
-            rgb: Vec::new(),
-        };
-        draw(&mut sink)?;
-        sink.stream.finish().map_err(io_error)?;
+        let mut stream = writer.stream_writer_with_size(CHUNK).map_err(io_error)?;
+        let line = Vec::new();
+        match depth {
+            Depth::Eight => draw(&mut PngRows {
+                stream: &mut stream,
+                rgb: line,
+            })?,
+            Depth::Sixteen | Depth::ThirtyTwo => draw(&mut Png16Rows {
+                stream: &mut stream,
+                line,
+            })?,
+        }
+        stream.finish().map_err(io_error)?;
     }
     writer.finish().map_err(io_error)?;
     Ok(())
@@ -124,7 +208,7 @@ impl Write for Watched<'_> {
     }
 }
 
-fn io_error(error: png::EncodingError) -> Error {
+pub(crate) fn io_error(error: png::EncodingError) -> Error {
     Error::Io(match error {
         png::EncodingError::IoError(error) => error,
         other => io::Error::other(other),
@@ -132,12 +216,12 @@ fn io_error(error: png::EncodingError) -> Error {
 }
 
 /// Rows on their way into the compressor. Pictures are opaque: alpha is left out.
-struct PngRows<'a, W: Write> {
-    stream: png::StreamWriter<'a, W>,
+struct PngRows<W: Write> {
+    stream: W,
     rgb: Vec<u8>,
 }
 
-impl<W: Write> RowSink for PngRows<'_, W> {
+impl<W: Write> RowSink for PngRows<W> {
     fn rows(&mut self, rgba: &[u8]) -> io::Result<()> {
         self.rgb.clear();
         self.rgb.extend(
@@ -184,7 +268,7 @@ mod tests {
             ("Formula", "√x\0 + π".into()),
         ]);
         let mut bytes = Vec::new();
-        encode_png(&mut bytes, SIZE, &metadata, draw).unwrap();
+        encode_png(&mut bytes, SIZE, Depth::Eight, &metadata, draw).unwrap();
         let mut reader = png::Decoder::new(io::Cursor::new(bytes))
             .read_info()
             .unwrap();
@@ -230,7 +314,7 @@ mod tests {
                 Ok(())
             }
         }
-        let failed = encode_png(&mut Closed, SIZE, &Metadata::default(), draw);
+        let failed = encode_png(&mut Closed, SIZE, Depth::Eight, &Metadata::default(), draw);
         assert!(
             matches!(failed, Err(Error::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe)
         );

@@ -17,19 +17,23 @@
 )]
 
 pub mod accuracy;
+pub mod animation;
 pub mod atomic_file;
 pub mod auto;
 pub mod capabilities;
 pub mod decorate;
 pub mod device;
+pub mod difference;
 pub mod error;
 pub mod evaluate;
+pub mod executor;
 pub mod image_file;
 pub mod kernel;
 pub mod probe;
 pub mod render;
 pub mod rows;
 pub mod shader;
+pub mod trace;
 
 mod buffers;
 mod pool;

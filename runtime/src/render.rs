@@ -39,7 +39,7 @@ pub struct View {
     pub height: f64,
 }
 
-/// Which shader stage computes the pixels. The picture is the same.
+/// Which shader stage computes the pixels, and in what form. The picture is the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pipeline {
     /// A compute shader: fast on data-centre GPUs too.
@@ -47,6 +47,19 @@ pub enum Pipeline {
     Compute,
     /// A fragment shader, as in a web page or a game.
     Fragment,
+    /// A compute shader whose pixels are linear rgb and alpha, four `f32` each, not clamped.
+    Linear,
+}
+
+impl Pipeline {
+    /// Bytes of a pixel in the rows that a [`RowSink`] gets.
+    #[must_use]
+    pub fn bytes_per_pixel(self) -> usize {
+        match self {
+            Self::Compute | Self::Fragment => 4,
+            Self::Linear => 16,
+        }
+    }
 }
 
 /// One picture to be drawn.
@@ -79,6 +92,43 @@ impl Frame<'_> {
         self.view.height / f64::from(self.size.height)
     }
 
+    /// Says what is wrong with the frame, whatever the scene.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a frame outside of the limits.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let invalid = |reason: String| Err(Error::Invalid { reason });
+        let Size { width, height } = self.size;
+        if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
+            return invalid(format!(
+                "a picture of {width}x{height} pixels: each side must be 1 to {MAX_SIDE}"
+            ));
+        }
+        if self.samples == 0 || self.samples > MAX_SAMPLES {
+            return invalid(format!(
+                "{} samples per axis: must be 1 to {MAX_SAMPLES}",
+                self.samples
+            ));
+        }
+        if self.params.len() > MAX_PARAMS {
+            return invalid(format!(
+                "{} parameters: at most {MAX_PARAMS}",
+                self.params.len()
+            ));
+        }
+        let pixel = self.pixel() as f32;
+        if !(pixel.is_normal() && pixel > 0.0) {
+            return invalid(format!(
+                "a view of height {}: must be a positive number within single precision",
+                self.view.height
+            ));
+        }
+        if !self.view.center.iter().all(|c| (*c as f32).is_finite()) {
+            return invalid("the centre of the view must be finite in single precision".into());
+        }
+        Ok(())
+    }
+
     /// Whether a format tells the points of neighbouring pixels apart, everywhere in the view.
     #[must_use]
     pub fn is_resolved(&self, format: Format) -> bool {
@@ -95,7 +145,7 @@ impl Frame<'_> {
 
 /// Takes the rows of a picture from top to bottom.
 pub trait RowSink {
-    /// Takes whole rows of 8-bit sRGB with alpha.
+    /// Takes whole rows, in the form of the frame's [`Pipeline`]: 8-bit sRGB with alpha, or linear `f32`.
     ///
     /// # Errors
     /// Whatever writing them meets; the picture is then given up.
@@ -125,6 +175,7 @@ pub struct Renderer {
     uniforms: Uniforms,
     compute: Option<ComputeStage>,
     fragment: Option<FragmentStage>,
+    linear: Option<ComputeStage>,
 }
 
 /// The buffers at bindings 0 to 3, which every tile reads.
@@ -154,6 +205,7 @@ impl Renderer {
             },
             compute: None,
             fragment: None,
+            linear: None,
         })
     }
 
@@ -191,11 +243,12 @@ impl Renderer {
             budget.learn(first, start.elapsed());
         }
         let mut band = Vec::new();
+        let pixel = frame.pipeline.bytes_per_pixel();
         let mut done = 0;
         let mut top = 0;
         while top < height {
             let rows = tiles::band_height(width, height - top, &budget);
-            band.resize(width as usize * rows as usize * 4, 0);
+            band.resize(width as usize * rows as usize * pixel, 0);
             let mut pending = Pending::new(Tile {
                 x: 0,
                 y: top,
@@ -205,7 +258,8 @@ impl Renderer {
             while let Some(tile) = pending.next(&budget) {
                 let start = Instant::now();
                 self.tile(frame, tile, |bytes, stride| {
-                    place(&mut band, width, top, tile, bytes, stride);
+                    let line = width as usize * pixel;
+                    place(&mut band, line, pixel, (tile, top), bytes, stride);
                 })?;
                 budget.learn(tile, start.elapsed());
                 done += tile.pixels();
@@ -218,43 +272,14 @@ impl Renderer {
     }
 
     fn check(&self, frame: &Frame) -> Result<(), Error> {
-        let invalid = |reason: String| Err(Error::Invalid { reason });
-        let Size { width, height } = frame.size;
-        if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
-            return invalid(format!(
-                "a picture of {width}x{height} pixels: each side must be 1 to {MAX_SIDE}"
-            ));
-        }
-        if frame.samples == 0 || frame.samples > MAX_SAMPLES {
-            return invalid(format!(
-                "{} samples per axis: must be 1 to {MAX_SAMPLES}",
-                frame.samples
-            ));
-        }
-        if frame.params.len() > MAX_PARAMS {
-            return invalid(format!(
-                "{} parameters: at most {MAX_PARAMS}",
-                frame.params.len()
-            ));
-        }
-        if frame.settings.len() as u64 > self.uniforms.settings.size()
-            || !frame.settings.len().is_multiple_of(4)
-        {
-            return invalid(format!(
-                "{} bytes of settings for a scene that has {}",
-                frame.settings.len(),
+        frame.check()?;
+        let settings = frame.settings.len();
+        if settings as u64 > self.uniforms.settings.size() || !settings.is_multiple_of(4) {
+            let reason = format!(
+                "{settings} bytes of settings for a scene that has {}",
                 self.uniforms.settings.size()
-            ));
-        }
-        let pixel = (frame.view.height / f64::from(height)) as f32;
-        if !(pixel.is_normal() && pixel > 0.0) {
-            return invalid(format!(
-                "a view of height {}: must be a positive number within single precision",
-                frame.view.height
-            ));
-        }
-        if !frame.view.center.iter().all(|c| (*c as f32).is_finite()) {
-            return invalid("the centre of the view must be finite in single precision".into());
+            );
+            return Err(Error::Invalid { reason });
         }
         Ok(())
     }
@@ -277,9 +302,13 @@ impl Renderer {
     fn stage(&mut self, pipeline: Pipeline) -> Result<&mut dyn Stage, Error> {
         let (gpu, shader, uniforms) = (&self.gpu, &self.shader, &self.uniforms);
         Ok(match pipeline {
+            Pipeline::Linear => match &mut self.linear {
+                Some(stage) => stage,
+                empty => empty.insert(ComputeStage::new(gpu, shader, pipeline)?),
+            },
             Pipeline::Compute => match &mut self.compute {
                 Some(stage) => stage,
-                empty => empty.insert(ComputeStage::new(gpu, shader, uniforms)?),
+                empty => empty.insert(ComputeStage::new(gpu, shader, pipeline)?),
             },
             Pipeline::Fragment => match &mut self.fragment {
                 Some(stage) => stage,
@@ -377,7 +406,7 @@ fn uniform_layout(visibility: wgpu::ShaderStages) -> [wgpu::BindGroupLayoutEntry
     })
 }
 
-fn view_uniform(frame: &Frame, tile: Tile) -> ViewUniform {
+pub(crate) fn view_uniform(frame: &Frame, tile: Tile) -> ViewUniform {
     ViewUniform {
         center: frame.view.center.map(|c| c as f32),
         size: [frame.size.width as f32, frame.size.height as f32],
@@ -390,13 +419,19 @@ fn view_uniform(frame: &Frame, tile: Tile) -> ViewUniform {
     }
 }
 
-/// Copies a tile's rows, which are `stride` bytes apart, into the band that begins at row `top`.
-fn place(band: &mut [u8], width: u32, top: u32, tile: Tile, bytes: &[u8], stride: usize) {
-    let row = tile.width as usize * 4;
-    let left = tile.x as usize * 4;
-    let lines = band
-        .chunks_exact_mut(width as usize * 4)
-        .skip((tile.y - top) as usize);
+/// Copies a tile's rows, which are `stride` bytes apart, into the band that begins at row `top` and has `line` bytes in a
+/// row, `pixel` in a pixel.
+fn place(
+    band: &mut [u8],
+    line: usize,
+    pixel: usize,
+    (tile, top): (Tile, u32),
+    bytes: &[u8],
+    stride: usize,
+) {
+    let row = tile.width as usize * pixel;
+    let left = tile.x as usize * pixel;
+    let lines = band.chunks_exact_mut(line).skip((tile.y - top) as usize);
     for (line, pixels) in lines.zip(bytes.chunks(stride)).take(tile.height as usize) {
         line[left..left + row].copy_from_slice(&pixels[..row]);
     }
@@ -404,8 +439,11 @@ fn place(band: &mut [u8], width: u32, top: u32, tile: Tile, bytes: &[u8], stride
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::AtomicBool;
+
     use super::*;
     use crate::AdapterChoice;
+    use crate::executor::{Arithmetic, Painter};
     use pullback_compiler::lower::Precision;
 
     const SIZE: Size = Size {
@@ -468,6 +506,58 @@ mod tests {
         let distinct: std::collections::HashSet<_> =
             pictures[0].as_chunks::<4>().0.iter().collect();
         assert!(distinct.len() > 20, "{} colours", distinct.len());
+    }
+
+    #[test]
+    fn linear_light_is_what_the_picture_is_made_of() {
+        let Some(gpu) = software() else { return };
+        let (scene, settings) = scene("x^2 - y^2");
+        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
+        let (mut encoded, mut linear) = (Vec::new(), Vec::new());
+        let render = &mut |pipeline, rows: &mut Vec<u8>| {
+            renderer.render(&frame(&settings, pipeline), rows).unwrap();
+        };
+        render(Pipeline::Compute, &mut encoded);
+        render(Pipeline::Linear, &mut linear);
+        assert_eq!(linear.len(), 4 * encoded.len());
+        for (byte, word) in encoded.iter().zip(linear.as_chunks::<4>().0) {
+            // its inverse (IEC 61966-2-1): the byte may be half a step off, and the dither as much
+            let light = |byte: f32| match (byte / 255.0).clamp(0.0, 1.0) {
+                low if low <= 0.04045 => low / 12.92,
+                high => ((high + 0.055) / 1.055).powf(2.4),
+            };
+            let (value, byte) = (f32::from_le_bytes(*word).clamp(0.0, 1.0), f32::from(*byte));
+            let (low, high) = (light(byte - 1.01), light(byte + 1.01));
+            assert!((low..=high).contains(&value), "{value} {byte}");
+        }
+    }
+
+    #[test]
+    fn the_processor_gives_the_same_linear_light() {
+        let Some(gpu) = software() else { return };
+        let (scene, settings) = scene("x^2 - y^2");
+        let program = pullback_compiler::compile("x^2 - y^2").program.unwrap();
+        let frame = frame(&settings, Pipeline::Linear);
+        let (mut found, mut expected) = (Vec::new(), Vec::new());
+        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
+        renderer.render(&frame, &mut found).unwrap();
+        Painter::new(&scene, Arithmetic::Reference, Pipeline::Linear)
+            .unwrap()
+            .render(
+                &frame,
+                &program.pictures()[0].settings,
+                &AtomicBool::new(false),
+                &mut expected,
+            )
+            .unwrap();
+        let words = |bytes: &[u8]| -> Vec<f32> {
+            let words = bytes.as_chunks::<4>().0;
+            words.iter().map(|word| f32::from_le_bytes(*word)).collect()
+        };
+        for (found, expected) in words(&found).into_iter().zip(words(&expected)) {
+            assert!((found - expected).abs() < 1e-4, "{found} {expected}");
+        }
+        assert_eq!(found.len(), expected.len());
     }
 
     #[test]

@@ -13,7 +13,7 @@ const CELL: u32 = 8;
 const PROBE: u32 = 64;
 /// Most pixels in one tile.
 const MAX_TILE: u64 = 1 << 20;
-/// Most pixels in one band, however wide: 64 MiB.
+/// Most pixels in one band, however wide: 64 MiB in 8 bits, 256 MiB in linear light.
 const MAX_BAND: u64 = 1 << 24;
 /// Largest growth of the budget from one tile to the next.
 const GROWTH: f64 = 4.0;

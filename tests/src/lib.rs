@@ -6,6 +6,7 @@ pub mod accuracy;
 #[cfg(feature = "gpu")]
 pub mod benchmarks;
 pub mod calculus;
+pub mod constructs;
 pub mod corpus;
 #[cfg(feature = "gpu")]
 pub mod deep_zoom;

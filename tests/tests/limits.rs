@@ -202,6 +202,7 @@ fn first_of(count: usize) -> Formula {
         ty: Type::Real,
         span: pullback_grammar::Span::default(),
         rewrites: pullback_compiler::stable::Rewrites::default(),
+        derived: None,
     }
 }
 

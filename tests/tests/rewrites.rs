@@ -489,17 +489,14 @@ fn sinc_slope(x: f64) -> f64 {
     (x.cos() - x.sin() / x) / x
 }
 
-/// A derivative that stands in a formula is taken of the rewritten expression, in the reference, too.
+/// A derivative that stands in a formula is taken of the rewritten expression where that is compiled with rewrites.
 #[test]
 fn derivatives_in_formulas_do_not_cancel() {
     let value = |text: &str, args: &[f64]| {
-        let formula = formula(text);
-        Machine::new(text, &formula.graph, &formula.value).at(args)
+        let made = compiled(text, Rewrites::ON);
+        Machine::new(text, &made.0, &made.1).at(args)
     };
-    for text in [
-        "f(x: real) = diff(sin(x)/x, x)",
-        "g(x: real) = sin(x)/x\nf(x: real) = g'(x)",
-    ] {
+    for text in SINC_SLOPES {
         for x in [1e-12, -1e-5, 0.003, 40.0] {
             let lost = bits_lost(value(text, &[x]), (sinc_slope(x), 0.0));
             assert!(lost < 4.0, "{text} at {x}: {lost:.1} bits");
@@ -519,5 +516,65 @@ fn derivatives_in_formulas_do_not_cancel() {
             error < 1e-5 * f64::hypot(exact.0, exact.1),
             "{text}: {got:?}"
         );
+    }
+}
+
+/// The derivative of sin(x)/x, as each operator of the calculus writes it.
+const SINC_SLOPES: [&str; 3] = [
+    "f(x: real) = diff(sin(x)/x, x)",
+    "g(x: real) = sin(x)/x\nf(x: real) = g'(x)",
+    "g(x, y) = sin(x)/x + y^2\nf(x: real) = grad(g)(x, 1).x",
+];
+
+/// What is compiled of a text with some rewrites.
+fn compiled(text: &str, rewrites: Rewrites) -> (Graph, Vec<Id>) {
+    use pullback_compiler::module::{What, stable_evaluation};
+    let program = compile(text).program.expect(text).with_rewrites(rewrites);
+    let made = stable_evaluation(&program.pictures()[0].formula, What::Value);
+    let made = made.expect("a value");
+    (made.graph, made.roots)
+}
+
+/// Without rewrites, and in the `f64` reference always, a derivative is that of the expression as it is written: the quotient
+/// rule, which cancels beside 0. A subset of the rewrites is just that subset, in derivatives, too.
+#[test]
+fn derivatives_in_formulas_are_as_written_without_rewrites() {
+    for text in SINC_SLOPES {
+        let reference = formula(text);
+        let off = compiled(text, Rewrites::OFF);
+        let others = compiled(text, Rewrites::parse("-cardinal").expect("a rule"));
+        let only = compiled(text, Rewrites::of(&[Rule::Cardinal]));
+        for x in [0.003_f64, -0.1, 40.0] {
+            let at = |g: &Graph, roots: &[Id]| Machine::new(text, g, roots).at(&[x]).0;
+            let exact = sinc_slope(x);
+            let got = at(&only.0, &only.1);
+            assert!((got - exact).abs() <= 1e-13 * exact.abs(), "{text} at {x}");
+            // the rounding of the terms of the quotient rule
+            let rounding = 4.0 * f64::EPSILON * (1.0 + x.abs().recip());
+            for (graph, roots) in [
+                (&reference.graph, reference.value.as_slice()),
+                (&off.0, &off.1),
+                (&others.0, &others.1),
+            ] {
+                let error = (at(graph, roots) - exact).abs();
+                assert!(error <= rounding, "{text} at {x}: {error:e}");
+            }
+        }
+        let lost = |made: &(Graph, Vec<Id>)| {
+            let x = 1e-7;
+            let got = Machine::new(text, &made.0, &made.1).at(&[x]);
+            bits_lost(got, (sinc_slope(x), 0.0))
+        };
+        assert!(
+            lost(&only) < 4.0 && lost(&off) > 20.0 && lost(&others) > 20.0,
+            "{text}"
+        );
+        // back and forth
+        let program = compile(text).program.expect(text);
+        let again = program
+            .with_rewrites(Rewrites::OFF)
+            .with_rewrites(Rewrites::ON);
+        let derived = &again.pictures()[0].formula.derived;
+        assert!(derived.is_some(), "{text}");
     }
 }

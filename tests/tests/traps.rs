@@ -476,3 +476,128 @@ fn inverse_hyperbolic_cosines_stay_on_their_branch() {
         ),
     ]);
 }
+
+/// Slopes of quotients whose divisor is an infinity, or whose slope is one: a zero times an infinity as the rule is written
+/// down. The exact ones are below the least float32 number, or 0 in float64, too.
+#[test]
+fn slopes_of_quotients_are_numbers_where_divisors_overflow() {
+    const LEAST: f64 = 1.2e-38;
+    let cases: [(&str, What, &[f32]); 11] = [
+        (
+            "f(x, y) = (y + sin(x))/cosh(x)",
+            What::Gradient,
+            &[95.0, 2.0],
+        ),
+        (
+            "f(x, y) = (y + sin(x))/cosh(x)",
+            What::Gradient,
+            &[-300.0, 2.0],
+        ),
+        (
+            "f(x, y) = (y + sin(x))/cosh(x)",
+            What::Gradient,
+            &[1000.0, 2.0],
+        ),
+        (
+            "f(x, y) = (y + sin(x))/cosh(x)",
+            What::Hessian,
+            &[95.0, 2.0],
+        ),
+        (
+            "f(x, y) = y/(1 + exp(2 x) + y^2)",
+            What::Gradient,
+            &[60.0, 2.0],
+        ),
+        ("f(x, y) = x y/(1 + x^8)", What::Gradient, &[1e7, 2.0]),
+        ("f(x: real) = x/(exp(x) - 1)", What::Derivative, &[110.0]),
+        ("f(x: real) = 1/(exp(x) + 1)", What::Derivative, &[110.0]),
+        ("f(z) = z/cosh(z)", What::Derivative, &[95.0, 1.0]),
+        ("f(z) = (z + 1)/sin(z)", What::Derivative, &[1.0, -110.0]),
+        ("f(z) = re(z)/(1 + exp(z))", What::Derivative, &[110.0, 3.0]),
+    ];
+    let mut wrong = String::new();
+    for machine in &machines() {
+        for (source, what, args) in cases {
+            let point = Point {
+                args: args.iter().map(|&x| f64::from(x)).collect(),
+                params: Vec::new(),
+            };
+            let row = machine.run(&formula(source), what, &[point]).expect(source);
+            if !row[0].iter().all(|x| x.abs() < LEAST) {
+                let _ = writeln!(
+                    wrong,
+                    "{}: {source} at {args:?}: {:?}",
+                    label(machine),
+                    row[0]
+                );
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+/// A power whose product with its exponent is in range, and the power not, within a loop: the slope of Σ (k x)^-0.1.
+#[test]
+fn powers_in_loops_are_computed_with_their_factors() {
+    let slope = Trap {
+        what: What::Derivative,
+        ..trap(
+            "f(x: real) = sum(k in 1..2, (k x)^-0.1)",
+            &[3e-36],
+            &[NOT_STATED, -2.298_295_587_302_129e38],
+            // of -0.1 as a float32 number the last digit counts 80 times in the logarithm, and not in float64
+            8.0,
+        )
+    };
+    // pairs compute a power by itself, in and outside of loops
+    let is_pairs = |machine: &Machine| matches!(machine, Machine::Gpu(_, Precision::Extended));
+    let wrong: String = machines()
+        .iter()
+        .filter(|machine| !is_pairs(machine))
+        .map(|machine| judge(&slope, machine))
+        .collect();
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+/// Directions of points whose distance from the origin overflows, and the slopes of that distance.
+#[test]
+fn directions_need_no_range() {
+    let gradient = |source, args: &[f32], expected: &[f64]| Trap {
+        what: What::Gradient,
+        ..trap(source, args, expected, 6.0)
+    };
+    check(&[
+        trap(
+            "f(x, y, z) = normalize((x, y, z)).y",
+            &[3e38, 2e38, 1e38],
+            &[0.534_522_472_209_058_6],
+            6.0,
+        ),
+        trap(
+            "f(x, y) = normalize((x, y)).x",
+            &[3e38, -3e38],
+            &[std::f64::consts::FRAC_1_SQRT_2],
+            6.0,
+        ),
+        gradient(
+            "f(x, y) = hypot(x, y)",
+            &[3e38, -3e38],
+            &[
+                NOT_STATED,
+                std::f64::consts::FRAC_1_SQRT_2,
+                -std::f64::consts::FRAC_1_SQRT_2,
+            ],
+        ),
+    ]);
+}
+
+/// 1/x² where x² is a subnormal number.
+#[test]
+fn inverse_squares_need_no_range() {
+    check(&[trap(
+        "f(x: real) = x^-2",
+        &[6e-20],
+        &[2.777_777_954_080_438_7e38],
+        2.6,
+    )]);
+}

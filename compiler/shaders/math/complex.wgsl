@@ -144,6 +144,17 @@ fn complex_inverse(z: vec2f) -> vec2f {
     return q * power_of_two(-e);
 }
 
+/// 1 / z² = 1 / (z²) of z scaled by a power of two: the square has accurate components, and nothing cancels in its inverse.
+/// Error: 5 ulp each component.
+fn complex_inverse_square(z: vec2f) -> vec2f {
+    if complex_is_infinite(z) {
+        return vec2f(0.0, 0.0);
+    }
+    let e = complex_exponent(z);
+    let inverse = complex_inverse(complex_square(z * power_of_two(-e)));
+    return vec2f(times_wide_power_of_two(inverse.x, -2 * e), times_wide_power_of_two(inverse.y, -2 * e));
+}
+
 /// |z| without spurious overflow.
 /// Error: 1.2 ulp.
 fn complex_abs(z: vec2f) -> f32 {

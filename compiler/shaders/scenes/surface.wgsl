@@ -137,32 +137,72 @@ fn opposite(a: Sample, b: Sample) -> bool {
     return (a.value < 0.0) != (b.value < 0.0);
 }
 
+// What a march does with its next sample: it walks on, or it searches a step that may hold the surface for where f ceases to
+// be defined, for an extremum, for a root.
+const WALK: u32 = 0u;
+const EDGE: u32 = 1u;
+const DIP: u32 = 2u;
+const CROSSING: u32 = 3u;
+// The search has ended with a hit.
+const FOUND: u32 = 4u;
+
+// A search within a step, between two samples: of the last valid one and a bad place; of two around an extremum; of two
+// around a root. Where it ends without a hit it is a walk again.
+struct Search {
+    mode: u32,
+    count: u32,        // samples that it has taken
+    t: f32,            // where the next one is wanted; of a hit, where that is
+    low: Sample,       // a bad place, or a sample on the near side; of a root, the newest
+    high: Sample,      // a sample on the far side; of a root, one of the other sign
+    third: Sample,     // the valid end of the step, the sample nearest to the level, or the one that was replaced
+    low_weight: f32,   // of the Illinois method
+    high_weight: f32,
+    size: f32,         // greatest |f - level| before a search for a root
+    touching: bool,    // of a hit
+}
+
 // The first hit on a path. The inner loop only walks, so that rays side by side walk together to where each has
-// something to search, and then search together.
+// something to search, and then search together. Drivers copy a function to where it is called, and f may be long:
+// samples are taken in this one place.
 fn march(path: Path) -> Hit {
     if !(path.extent > 0.0) {
         return NO_HIT;
     }
-    let ray = path.ray;
-    let count = path.count;
-    let step = path.extent / f32(count);
+    let step = path.extent / f32(path.count);
     var a: Sample;
     var b: Sample;
+    var search: Search;
+    var t = 0.0;
     var k = 0u;
-    while k <= count {
+    loop {
+        var found: Sample;
         var promising = false;
-        while k <= count && !promising {
+        loop {
+            found = sample_ray(path.ray, t);
+            if search.mode != WALK {
+                break;
+            }
             a = b;
-            b = sample_ray(ray, f32(k) * step);
+            b = found;
             promising = k > 0u && may_hit(a, b);
             k++;
-        }
-        if promising {
-            let hit = search_step(ray, a, b);
-            if hit.found {
-                return hit;
+            if promising || k > path.count {
+                break;
             }
+            t = f32(k) * step;
         }
+        if search.mode != WALK {
+            search = searched(search, a, b, found);
+        } else if promising {
+            search = search_step(a, b);
+        }
+        if search.mode == FOUND {
+            return Hit(search.t, true, search.touching);
+        }
+        if search.mode == WALK && k > path.count {
+            return NO_HIT;
+        }
+        t = select(search.t, f32(k) * step, search.mode == WALK);
     }
     return NO_HIT;
 }
@@ -175,43 +215,64 @@ fn may_hit(a: Sample, b: Sample) -> bool {
     return a.valid != b.valid;
 }
 
-// The first hit between two samples of which `may_hit` is true.
-fn search_step(ray: Ray, a: Sample, b: Sample) -> Hit {
-    var near = a;
-    var far = b;
+// A search between two samples of which `may_hit` is true.
+fn search_step(a: Sample, b: Sample) -> Search {
     if !a.valid {
-        near = b;
-        far = a;
+        return edge_place(Search(EDGE, 0u, 0.0, a, b, b, 1.0, 1.0, 0.0, false));
     }
-    if !far.valid {
-        far = last_valid(ray, near, far.t);
-    } else if !opposite(a, b) {
-        let dip = search_dip(ray, a, b);
-        if dip.touching {
-            return Hit(dip.extremum.t, true, true);
-        }
-        far = dip.extremum;
+    if !b.valid {
+        return edge_place(Search(EDGE, 0u, 0.0, b, a, a, 1.0, 1.0, 0.0, false));
     }
-    if opposite(near, far) {
-        return refine_crossing(ray, near, far);
+    if opposite(a, b) {
+        return search_crossing(a, b);
     }
-    return NO_HIT;
+    var nearest = a;
+    if abs(b.value) < abs(a.value) {
+        nearest = b;
+    }
+    return dip_place(Search(DIP, 0u, 0.0, a, b, nearest, 1.0, 1.0, 0.0, false));
 }
 
-// Where f ceases to be defined between a valid sample and a bad place, by bisection from the valid side.
-fn last_valid(ray: Ray, good: Sample, bad: f32) -> Sample {
-    var edge = good;
-    var beyond = bad;
-    // Counted from view.zero, so that no driver unrolls what few rays need.
-    for (var k = view.zero; k < 12u; k++) {
-        let middle = sample_ray(ray, 0.5 * (edge.t + beyond));
-        if middle.valid {
-            edge = middle;
-        } else {
-            beyond = middle.t;
-        }
+// A search with the sample that it wanted, in the step from a to b.
+fn searched(search: Search, a: Sample, b: Sample, found: Sample) -> Search {
+    if search.mode == EDGE {
+        return searched_edge(search, found);
     }
-    return edge;
+    if search.mode == DIP {
+        return searched_dip(search, a, b, found);
+    }
+    return searched_crossing(search, found);
+}
+
+// The end of a search without a hit.
+fn nothing(search: Search) -> Search {
+    var next = search;
+    next.mode = WALK;
+    return next;
+}
+
+// Where f ceases to be defined between a bad place (low) and a valid sample (high), by bisection from the valid side.
+fn edge_place(search: Search) -> Search {
+    var next = search;
+    next.t = 0.5 * (search.high.t + search.low.t);
+    return next;
+}
+
+fn searched_edge(search: Search, found: Sample) -> Search {
+    var next = search;
+    if found.valid {
+        next.high = found;
+    } else {
+        next.low = found;
+    }
+    next.count++;
+    if next.count < 12u {
+        return edge_place(next);
+    }
+    if opposite(next.third, next.high) {
+        return search_crossing(next.third, next.high);
+    }
+    return nothing(next);
 }
 
 // Whether a step whose ends have the same sign may hold two crossings: both slopes lead towards the level, and the
@@ -233,95 +294,95 @@ fn may_dip(a: Sample, b: Sample) -> bool {
     return met <= 0.1 * max(va, vb) * (f + r);
 }
 
-// What was found between two samples of the same sign: a sample beyond the level, or else the one nearest to it.
-struct Dip {
-    extremum: Sample,
-    touching: bool,  // the nearest is the level, to rounding
-}
-
 // Looks for the extremum between two samples of the same sign by regula falsi on the slope (Illinois: Dowell and
 // Jarratt 1971), until a sample lies beyond the level or the tangents show that none can.
-fn search_dip(ray: Ray, a: Sample, b: Sample) -> Dip {
-    var low = a;
-    var high = b;
-    var low_weight = 1.0;
-    var high_weight = 1.0;
-    var nearest = a;
-    if abs(b.value) < abs(a.value) {
-        nearest = b;
+fn dip_place(search: Search) -> Search {
+    let down = search.low_weight * abs(search.low.slope);
+    let up = search.high_weight * abs(search.high.slope);
+    let part = clamp(down / max(down + up, 1e-37), 0.02, 0.98);
+    var next = search;
+    next.t = mix(search.low.t, search.high.t, part);
+    return next;
+}
+
+fn searched_dip(search: Search, a: Sample, b: Sample, found: Sample) -> Search {
+    if !found.valid {
+        return nothing(search);
     }
-    for (var k = 0; k < 10; k++) {
-        let down = low_weight * abs(low.slope);
-        let up = high_weight * abs(high.slope);
-        let part = clamp(down / max(down + up, 1e-37), 0.02, 0.98);
-        let middle = sample_ray(ray, mix(low.t, high.t, part));
-        if !middle.valid {
-            return Dip(a, false);
-        }
-        if opposite(a, middle) {
-            return Dip(middle, false);
-        }
-        if abs(middle.value) <= abs(nearest.value) {
-            nearest = middle;
-        }
-        if (middle.slope < 0.0) == (a.slope < 0.0) {
-            low = middle;
-            low_weight = 1.0;
-            high_weight *= 0.5;
-        } else {
-            high = middle;
-            high_weight = 1.0;
-            low_weight *= 0.5;
-        }
-        if !may_dip(low, high) {
-            break;
-        }
+    if opposite(a, found) {
+        return search_crossing(a, found);
+    }
+    var next = search;
+    if abs(found.value) <= abs(next.third.value) {
+        next.third = found;
+    }
+    if (found.slope < 0.0) == (a.slope < 0.0) {
+        next.low = found;
+        next.low_weight = 1.0;
+        next.high_weight *= 0.5;
+    } else {
+        next.high = found;
+        next.high_weight = 1.0;
+        next.low_weight *= 0.5;
+    }
+    next.count++;
+    if next.count < 10u && may_dip(next.low, next.high) {
+        return dip_place(next);
     }
     // Even roots: the extremum equals the level to rounding.
     let size = max(abs(a.value), abs(b.value));
-    return Dip(nearest, abs(nearest.value) <= 3e-7 * size);
+    if abs(next.third.value) <= 3e-7 * size {
+        next.mode = FOUND;
+        next.t = next.third.t;
+        next.touching = true;
+        return next;
+    }
+    return nothing(next);
 }
 
 // Root between two samples of opposite sign, to the resolution of f32, by Chandrupatla's method (Adv. Eng. Softw.
 // 28, 1997): inverse quadratic interpolation where it is safe, bisection elsewhere. A sign change over which |f|
 // does not shrink with the bracket is a pole or a jump and not found.
-fn refine_crossing(ray: Ray, a: Sample, b: Sample) -> Hit {
-    let before = max(abs(a.value), abs(b.value));
-    var t1 = b.t;
-    var f1 = b.value;
-    var t2 = a.t;
-    var f2 = a.value;
-    var t3 = a.t;
-    var f3 = a.value;
-    var part = f1 / (f1 - f2);
-    for (var k = 0; k < 48; k++) {
-        let width = abs(t2 - t1);
-        let tolerance = 2.4e-7 * max(abs(t1), abs(t2)) + 1e-30;
-        if f1 == 0.0 || width <= 2.0 * tolerance {
-            break;
-        }
-        let margin = min(tolerance / width, 0.5);
-        let t = t1 + clamp(part, margin, 1.0 - margin) * (t2 - t1);
-        let middle = sample_ray(ray, t);
-        if !middle.valid {
-            return NO_HIT;
-        }
-        if (middle.value < 0.0) == (f1 < 0.0) {
-            t3 = t1;
-            f3 = f1;
-        } else {
-            t3 = t2;
-            f3 = f2;
-            t2 = t1;
-            f2 = f1;
-        }
-        t1 = middle.t;
-        f1 = middle.value;
-        part = next_part(t1, f1, t2, f2, t3, f3);
+fn search_crossing(a: Sample, b: Sample) -> Search {
+    let size = max(abs(a.value), abs(b.value));
+    let start = Search(CROSSING, 0u, 0.0, b, a, a, 1.0, 1.0, size, false);
+    return crossing_place(start, b.value / (b.value - a.value));
+}
+
+// The next sample at a part of the way from the newest one to that of the other sign, or the end.
+fn crossing_place(search: Search, part: f32) -> Search {
+    var next = search;
+    let f1 = search.low.value;
+    let f2 = search.high.value;
+    let t1 = search.low.t;
+    let t2 = search.high.t;
+    let width = abs(t2 - t1);
+    let tolerance = 2.4e-7 * max(abs(t1), abs(t2)) + 1e-30;
+    if search.count >= 48u || f1 == 0.0 || width <= 2.0 * tolerance {
+        let after = select(max(abs(f1), abs(f2)), 0.0, f1 == 0.0);
+        next.mode = select(WALK, FOUND, after < 0.25 * search.size);
+        next.t = select(t2, t1, abs(f1) <= abs(f2));
+        return next;
     }
-    let after = select(max(abs(f1), abs(f2)), 0.0, f1 == 0.0);
-    let t = select(t2, t1, abs(f1) <= abs(f2));
-    return Hit(t, after < 0.25 * before, false);
+    let margin = min(tolerance / width, 0.5);
+    next.t = t1 + clamp(part, margin, 1.0 - margin) * (t2 - t1);
+    return next;
+}
+
+fn searched_crossing(search: Search, found: Sample) -> Search {
+    if !found.valid {
+        return nothing(search);
+    }
+    var next = search;
+    if (found.value < 0.0) == (search.low.value < 0.0) {
+        next.third = search.low;
+    } else {
+        next.third = search.high;
+        next.high = search.low;
+    }
+    next.low = found;
+    next.count++;
+    return crossing_place(next, next_part(found.t, found.value, next.high.t, next.high.value, next.third.t, next.third.value));
 }
 
 // Where to look next between t1 (0) and t2 (1), given a third point with the sign of t1 or beyond t2.
@@ -357,22 +418,41 @@ fn distance_estimate(jet: vec4f) -> f32 {
     return min(abs(jet.w - settings.level) / size, LARGEST);
 }
 
-// Openness of the surface to the sky, 0..1: the distance to the surface at a few points above it, compared with
-// their height (A. Evans, "Fast approximations for global illumination on dynamic scenes", 2006).
-fn openness(p: vec3f, n: vec3f, side: f32) -> f32 {
-    let reach = 0.22 * min(settings.box.x, min(settings.box.y, settings.box.z));
-    var closed = 0.0;
-    for (var k = 1; k <= 3; k++) {
-        let height = reach * f32(k) / 3.0;
-        let q = p + height * n;
-        if all(abs(q - settings.center) <= settings.box) {
-            let jet = field_grad(q);
-            let same_side = (jet.w - settings.level) * side > 0.0;
-            let free = select(0.0, min(distance_estimate(jet) / height, 1.0), same_side);
-            closed += (1.0 - free) * exp2(-f32(k));
-        }
-    }
-    return 1.0 - settings.occlusion * clamp(closed, 0.0, 1.0);
+// The surface where a ray meets it.
+struct Spot {
+    p: vec3f,
+    n: vec3f,       // towards the eye
+    side: f32,      // sign of f - level on the side of the eye
+    outer: bool,
+}
+
+// Where a hit's surface is looked at. Where the ray only touches the level the gradient vanishes; just before, it has the
+// right direction.
+fn spot_point(path: Path, hit: Hit) -> vec3f {
+    let step = path.extent / f32(path.count);
+    let t = hit.t - select(0.0, 0.02 * step, hit.touching);
+    return path.ray.origin + t * path.ray.direction;
+}
+
+// `jet` is of the spot's point.
+fn spot_at(p: vec3f, jet: vec4f, direction: vec3f, touching: bool) -> Spot {
+    let gradient = direction_or(jet.xyz, -direction);
+    let toward_eye = dot(gradient, direction) <= 0.0;
+    let n = select(-gradient, gradient, toward_eye);
+    return Spot(p, n, select(-1.0, 1.0, toward_eye), toward_eye || touching);
+}
+
+// Height above the surface of the k-th point from which its openness is judged, k = 1 … 3.
+fn open_height(k: u32) -> f32 {
+    return 0.22 * min(settings.box.x, min(settings.box.y, settings.box.z)) * f32(k) / 3.0;
+}
+
+// What a point above the surface hides of the sky: the distance to the surface there compared with the height
+// (A. Evans, "Fast approximations for global illumination on dynamic scenes", 2006).
+fn hidden_sky(jet: vec4f, side: f32, k: u32) -> f32 {
+    let same_side = (jet.w - settings.level) * side > 0.0;
+    let free = select(0.0, min(distance_estimate(jet) / open_height(k), 1.0), same_side);
+    return (1.0 - free) * exp2(-f32(k));
 }
 
 // Light that reaches the eye from a surface of one colour: sky and ground light, a wrapped sun, and its highlight.
@@ -385,21 +465,41 @@ fn lit(colour: vec3f, n: vec3f, v: vec3f, open: f32) -> vec3f {
     return colour * (sky * open + sun) + vec3f(gloss) + rim * settings.background;
 }
 
-// The surface at a hit.
-fn surface_colour(path: Path, hit: Hit) -> vec3f {
-    let ray = path.ray;
-    let step = path.extent / f32(path.count);
-    // Where the ray only touches the level the gradient vanishes; just before, it has the right direction.
-    let t = hit.t - select(0.0, 0.02 * step, hit.touching);
-    let p = ray.origin + t * ray.direction;
-    let jet = field_grad(p);
-    let gradient = direction_or(jet.xyz, -ray.direction);
-    let toward_eye = dot(gradient, ray.direction) <= 0.0;
-    let n = select(-gradient, gradient, toward_eye);
-    let outer = toward_eye || hit.touching;
-    let side = select(-1.0, 1.0, toward_eye);
-    let open = openness(p, n, side);
-    return lit(select(settings.inside, settings.outside, outer), n, -ray.direction, open);
+// What light needs of f and its gradient: both at the base, and how much of the sky the surface hides from it.
+struct Light {
+    jet: vec4f,
+    closed: f32,   // sum of `hidden_sky`; 0 on the ground
+}
+
+// Looks at the surface, and from three points above it, or at the point of the box that is nearest to the ground, in one
+// loop: drivers copy a function to where it is called, and f may be long.
+fn look_at_base(base: vec3f, direction: vec3f, hit: Hit, on_ground: bool) -> Light {
+    var light = Light();
+    if !(hit.found || on_ground) {
+        return light;
+    }
+    var p = base;
+    for (var k = view.zero; k < 4u; k++) {
+        if k == 0u || all(abs(p - settings.center) <= settings.box) {
+            let jet = field_grad(p);
+            if k == 0u {
+                light.jet = jet;
+            } else {
+                light.closed += hidden_sky(jet, spot_at(base, light.jet, direction, hit.touching).side, k);
+            }
+        }
+        if !hit.found {
+            break;
+        }
+        p = base + open_height(k + 1u) * spot_at(base, light.jet, direction, hit.touching).n;
+    }
+    return light;
+}
+
+// The surface at a hit; `closed` is the sum of `hidden_sky`.
+fn surface_colour(spot: Spot, direction: vec3f, closed: f32) -> vec3f {
+    let open = 1.0 - settings.occlusion * clamp(closed, 0.0, 1.0);
+    return lit(select(settings.inside, settings.outside, spot.outer), spot.n, -direction, open);
 }
 
 // ---- The box -------------------------------------------------------------------------------------------------
@@ -444,44 +544,77 @@ fn paint(under: Wall, colour: vec3f, opacity: f32) -> Wall {
     return Wall(mix(under.colour, colour, opacity / max(total, 1e-6)), total);
 }
 
-// Lines and tint on the face at p with normal n. `strength` tells the walls behind from those in front.
-fn wall_at(p: vec3f, n: vec3f, direction: vec3f, footprint: f32, pixel: vec2f, behind: bool) -> Wall {
+// A point of a face of the box, as a ray sees it.
+struct Face {
+    p: vec3f,
+    n: vec3f,
+    footprint: f32,  // world units per pixel there
+    drawn: bool,
+}
+
+// The far face that a ray meets (`behind`), or the near one. The far one is hidden by the surface.
+fn face_of(ray: Ray, span: vec2f, behind: bool, hidden: bool) -> Face {
+    let pixel_slope = slope_per_pixel(view.size, clamp(settings.fov, 1.0, 120.0) * DEGREE);
+    let t = select(span.x, span.y, behind);
+    let p = ray.origin + t * ray.direction;
+    let drawn = span.y > max(span.x, 0.0) && t > 0.0 && !(behind && hidden);
+    return Face(p, box_normal(p, settings.center, settings.box), max(t * pixel_slope, 1e-30), drawn);
+}
+
+// f on a face.
+struct Trace {
+    value: f32,    // f - level
+    flat: vec3f,   // gradient in the face
+    slope: f32,    // length of that; 0 where it is not known
+    rate: f32,     // change of value per pixel across the lines
+    line: f32,     // coverage by the line of the level, if it is one
+}
+
+fn trace_on(face: Face, value: f32, flat: vec3f, direction: vec3f) -> Trace {
+    let slope = length3_safe(flat);
+    if !is_finite(slope) || slope <= 0.0 {
+        return Trace(value, flat, 0.0, 0.0, 0.0);
+    }
+    let along = cross(face.n, flat / slope);
+    let rate = 1.0 / max(screen_distance(1.0 / slope, along, face.n, direction, face.footprint), 1e-30);
+    let away = min(abs(value) / max(rate, 1e-30), 1e9);
+    return Trace(value, flat, slope, rate, line_coverage(away, 2.0 * settings.isoline_width, sample_window()));
+}
+
+// Where one Newton step ends.
+fn newton_point(face: Face, trace: Trace) -> vec3f {
+    return face.p - trace.flat / trace.slope * (trace.value / trace.slope);
+}
+
+// Tells a zero from a pole by f at the end of one Newton step: near a zero of order n that multiplies the value by
+// (1 - 1/n)^n < 1/e, near a pole of order n by (1 + 1/n)^-n > 1/e.
+fn is_zero_there(jet: vec4f, value: f32) -> bool {
+    let next = jet.w - settings.level;
+    return is_finite(next) && abs(next) <= 0.36787944 * abs(value) + 1e-6 * abs(settings.level);
+}
+
+// Lines and tint on a face. `behind` tells the walls behind from those in front, `crossed` whether the level's line is one.
+fn wall_on(trace: Trace, undefined: bool, crossed: bool, pixel: vec2f, behind: bool) -> Wall {
     let window = sample_window();
-    let jet = field_grad(p);
-    var wall = Wall(vec3f(1.0), 0.0);
-    if is_nan(jet.w) {
+    if undefined {
         let opacity = select(0.12, 0.30, behind);
         return Wall(vec3f(0.45), opacity * hatch(pixel, 1.0, 7.0, 0.3, window));
     }
-    let value = clamp(jet.w - settings.level, -LARGEST, LARGEST);
-    let side = select(settings.outside, settings.inside, value < 0.0);
+    let side = select(settings.outside, settings.inside, trace.value < 0.0);
+    var wall = Wall(vec3f(1.0), 0.0);
     if behind {
         wall = Wall(mix(side, vec3f(1.0), 0.5), 0.22);
     }
-    let flat = jet.xyz - n * dot(jet.xyz, n);
-    let slope = length3_safe(flat);
-    if !is_finite(slope) || slope <= 0.0 {
+    if trace.slope <= 0.0 {
         return wall;
     }
-    let along = cross(n, flat / slope);
-    // Change of value per pixel across the line.
-    let rate = 1.0 / max(screen_distance(1.0 / slope, along, n, direction, footprint), 1e-30);
     if behind && settings.isoline_spacing > 0.0 {
-        wall = paint(wall, mix(side, INK, 0.45), 0.5 * family_coverage(value, rate, window));
+        wall = paint(wall, mix(side, INK, 0.45), 0.5 * family_coverage(trace.value, trace.rate, window));
     }
-    let away = min(abs(value) / max(rate, 1e-30), 1e9);
-    let level_line = line_coverage(away, 2.0 * settings.isoline_width, window);
-    if level_line > 0.0 && is_zero_near(p - flat / slope * (value / slope), value) {
-        wall = paint(wall, INK, level_line * select(0.55, 0.85, behind));
+    if crossed {
+        wall = paint(wall, INK, trace.line * select(0.55, 0.85, behind));
     }
     return wall;
-}
-
-// Tells a zero from a pole by one Newton step, which ends at q: near a zero of order n it multiplies the value by
-// (1 - 1/n)^n < 1/e, near a pole of order n by (1 + 1/n)^-n > 1/e.
-fn is_zero_near(q: vec3f, value: f32) -> bool {
-    let next = field_grad(q).w - settings.level;
-    return is_finite(next) && abs(next) <= 0.36787944 * abs(value) + 1e-6 * abs(settings.level);
 }
 
 // Coverage by the isolines of the walls: lines at the multiples of 1, 5 and 25 spacings, each family vanishing
@@ -504,28 +637,40 @@ fn family_coverage(value: f32, rate: f32, window: f32) -> f32 {
 
 // The faces of the box that the ray meets, over what lies behind them. The far one is hidden by the surface.
 fn over_box(under: vec3f, ray: Ray, span: vec2f, hidden: bool, pixel: vec2f) -> vec3f {
-    if span.y <= max(span.x, 0.0) {
-        return under;
-    }
-    let pixel_slope = slope_per_pixel(view.size, clamp(settings.fov, 1.0, 120.0) * DEGREE);
     var colour = under;
-    for (var face = view.zero; face < 2u; face++) {
-        let behind = face == 0u;
-        let t = select(span.x, span.y, behind);
-        if t > 0.0 && !(behind && hidden) {
-            colour = over_wall(colour, ray, t, pixel, pixel_slope, behind);
+    for (var k = view.zero; k < 2u; k++) {
+        let behind = k == 0u;
+        let face = face_of(ray, span, behind, hidden);
+        if face.drawn {
+            colour = over_wall(colour, face, ray, pixel, behind);
         }
     }
     return colour;
 }
 
-// The face of the box at distance t on the ray, over what lies behind it.
-fn over_wall(under: vec3f, ray: Ray, t: f32, pixel: vec2f, pixel_slope: f32, behind: bool) -> vec3f {
-    let p = ray.origin + t * ray.direction;
-    let n = box_normal(p, settings.center, settings.box);
-    let footprint = max(t * pixel_slope, 1e-30);
-    let wall = wall_at(p, n, ray.direction, footprint, pixel, behind);
-    let edge = edge_coverage(p, n, ray.direction, footprint);
+// A face of the box, over what lies behind it.
+fn over_wall(under: vec3f, face: Face, ray: Ray, pixel: vec2f, behind: bool) -> vec3f {
+    var trace: Trace;
+    var undefined = false;
+    var crossed = false;
+    var p = face.p;
+    // First at the face, and where the line of the level may be there, at the end of a Newton step.
+    for (var k = view.zero; k < 2u; k++) {
+        let jet = field_grad(p);
+        if k > 0u {
+            crossed = is_zero_there(jet, trace.value);
+            break;
+        }
+        undefined = is_nan(jet.w);
+        let value = clamp(jet.w - settings.level, -LARGEST, LARGEST);
+        trace = trace_on(face, value, jet.xyz - face.n * dot(jet.xyz, face.n), ray.direction);
+        if undefined || !(trace.line > 0.0) {
+            break;
+        }
+        p = newton_point(face, trace);
+    }
+    let wall = wall_on(trace, undefined, crossed, pixel, behind);
+    let edge = edge_coverage(face.p, face.n, ray.direction, face.footprint);
     let colour = mix(under, wall.colour, wall.opacity * settings.wall_opacity);
     return mix(colour, INK, edge * select(0.8, 0.6, behind));
 }
@@ -541,13 +686,17 @@ fn sky_colour(direction: vec3f) -> vec3f {
     return settings.background * mix(vec3f(1.0), vec3f(0.60, 0.68, 0.80), 1.0 - exp2(-2.5 * height));
 }
 
+// The point of the box's floor, or the box, that is nearest to a point of the ground.
+fn nearest_in_box(p: vec3f) -> vec3f {
+    return clamp(p, settings.center - settings.box, settings.center + settings.box);
+}
+
 // Light left at a point of the ground by the surface above it: the estimated distance to the surface from the
-// nearest point of the box's floor, and on from there.
-fn ground_openness(p: vec3f) -> f32 {
+// nearest point of the box, where `jet` is taken, and on from there.
+fn ground_openness(p: vec3f, jet: vec4f) -> f32 {
     let reach = 0.30 * length(settings.box.xy);
-    let q = clamp(p, settings.center - settings.box, settings.center + settings.box);
-    let aside = distance(p, q);
-    let away = length(vec2f(min(distance_estimate(field_grad(q)), 1e9), 2.0 * aside));
+    let aside = distance(p, nearest_in_box(p));
+    let away = length(vec2f(min(distance_estimate(jet), 1e9), 2.0 * aside));
     return 1.0 - settings.occlusion * (0.55 * exp2(-2.0 * away / reach) + 0.25 * exp2(-2.5 * aside / reach));
 }
 
@@ -568,8 +717,8 @@ fn ground_distance(p: vec3f) -> f32 {
     return length(p.xy - settings.center.xy) / max(length(settings.box), 1e-20);
 }
 
-fn ground_colour(p: vec3f, direction: vec3f, shadowed: bool) -> vec3f {
-    let light = ground_openness(p) * (1.0 - settings.shadow * select(0.0, 0.55, shadowed));
+fn ground_colour(p: vec3f, jet: vec4f, direction: vec3f, shadowed: bool) -> vec3f {
+    let light = ground_openness(p, jet) * (1.0 - settings.shadow * select(0.0, 0.55, shadowed));
     let away = ground_distance(p);
     let haze = 1.0 - exp2(-0.012 * away * away);
     return mix(settings.background * vec3f(0.90, 0.89, 0.87) * light, sky_colour(direction), haze);
@@ -627,11 +776,13 @@ fn shade(pixel: vec2f) -> vec4f {
         }
         path = shadow_path(ground_point);
     }
+    let base = select(nearest_in_box(ground_point), spot_point(sight, hit), hit.found);
+    let light = look_at_base(base, ray.direction, hit, ground > 0.0);
     var colour: vec3f;
     if hit.found {
-        colour = surface_colour(sight, hit);
+        colour = surface_colour(spot_at(base, light.jet, ray.direction, hit.touching), ray.direction, light.closed);
     } else if ground > 0.0 {
-        colour = ground_colour(ground_point, ray.direction, shadowed);
+        colour = ground_colour(ground_point, light.jet, ray.direction, shadowed);
     } else {
         colour = sky_colour(ray.direction);
     }

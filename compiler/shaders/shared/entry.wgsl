@@ -1,6 +1,6 @@
-// Entry points: the same picture `shade` through a full-screen fragment pass or through a compute pass.
-// Both average `view.samples`² regular samples in linear light, encode to sRGB and dither by half a step of
-// 8 bits, as a function of the absolute pixel: tiles join without a seam and both passes agree.
+// Entry points: the same picture `shade` through a full-screen fragment pass or through a compute pass, and in linear
+// light. All average `view.samples`² regular samples in linear light; the first two encode to sRGB and dither by half a
+// step of 8 bits, as a function of the absolute pixel: tiles join without a seam and both passes agree.
 
 struct View {
     center: vec2f,     // world coordinates of the centre of the whole image
@@ -70,4 +70,18 @@ fn compute_main(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     image[id.y * view.tile_size.x + id.x] = pack4x8unorm(encoded_pixel(id.xy));
+}
+
+// Four words a pixel: linear rgb and alpha as they are, beyond 1 too.
+@compute @workgroup_size(8, 8)
+fn linear_main(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= view.tile_size) {
+        return;
+    }
+    let mean = pixel_mean(vec2f(id.xy) + view.tile);
+    let at = 4u * (id.y * view.tile_size.x + id.x);
+    image[at] = bitcast<u32>(mean.r);
+    image[at + 1u] = bitcast<u32>(mean.g);
+    image[at + 2u] = bitcast<u32>(mean.b);
+    image[at + 3u] = bitcast<u32>(mean.a);
 }

@@ -28,12 +28,18 @@ fn real_acosh_slope(x: real) -> real {
 
 /// x/r for a coordinate x of a point at the distance r from the origin, and 0 there.
 fn real_direction(x: real, y: real, r: real) -> real {
-    return choose(is_zero(r), num(0.0), real_div(x, r));
+    return real_direction3(x, y, num(0.0), r);
 }
 
-/// x/r in space.
+/// x/r in space. Where r overflows, that of a quarter of the point.
 fn real_direction3(x: real, y: real, z: real, r: real) -> real {
-    return choose(is_zero(r), num(0.0), real_div(x, r));
+    var part = x;
+    var whole = r;
+    if is_infinite(r) && is_finite(x) && is_finite(y) && is_finite(z) {
+        part = scale(x, -2);
+        whole = real_hypot3(part, scale(y, -2), scale(z, -2));
+    }
+    return choose(is_zero(r), num(0.0), real_div(part, whole));
 }
 
 /// 1/(1 + z²).

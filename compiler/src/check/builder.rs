@@ -16,6 +16,7 @@ use super::symbols::Symbols;
 use super::variables::Frame;
 use super::{Value, library, named_constant};
 use crate::ir::{Graph, Id, Op, Ty};
+use crate::stable::Rewrites;
 use crate::types::Type;
 
 /// Greatest depth of nested expressions, those of called functions included.
@@ -55,6 +56,10 @@ pub struct Builder<'a> {
     pub(super) derivatives: FxHashMap<(Source, &'a str, u32, Value), Known>,
     /// Number of nodes that the passes which take derivatives have visited.
     pub(super) visits: usize,
+    /// The rewrites of what is differentiated.
+    pub(super) rewrites: Rewrites,
+    /// Whether something was rewritten before it was differentiated.
+    pub(super) rewrote: bool,
     program: &'a File,
 }
 
@@ -85,6 +90,8 @@ impl<'a> Builder<'a> {
             frame: Frame::default(),
             derivatives: FxHashMap::default(),
             visits: 0,
+            rewrites: Rewrites::OFF,
+            rewrote: false,
             constants: FxHashMap::default(),
             bounds: Bounds::default(),
             nesting: Nesting::default(),
@@ -98,6 +105,25 @@ impl<'a> Builder<'a> {
     pub fn with_ranges(mut self, ranges: &[Option<(f64, f64)>]) -> Self {
         self.bounds.params = ranges.to_vec();
         self
+    }
+
+    /// The same, which takes derivatives of expressions as these rewrites make them, not of those that are written.
+    #[must_use]
+    pub fn with_rewrites(mut self, rewrites: Rewrites) -> Self {
+        self.rewrites = rewrites;
+        self
+    }
+
+    /// Whether derivatives have been taken.
+    #[must_use]
+    pub fn has_differentiated(&self) -> bool {
+        self.visits > 0
+    }
+
+    /// Whether a derivative is that of an expression that was rewritten before.
+    #[must_use]
+    pub fn has_rewritten(&self) -> bool {
+        self.rewrote
     }
 
     /// The operations that were spent on computing constant loops.
@@ -169,6 +195,13 @@ impl<'a> Builder<'a> {
         self.depth += 1;
         let value = self.nested(id);
         self.depth -= 1;
+        if self.source == Source::Program {
+            let span = self.file.exprs.span(id);
+            self.graph.cover(span);
+            if let Value::Scalar(node) = value {
+                self.graph.place(node, span);
+            }
+        }
         value
     }
 
@@ -233,6 +266,9 @@ impl<'a> Builder<'a> {
             let right = self.expr(rhs);
             let whole = file.exprs.span(node);
             value = self.binary(op, (&value, span), (&right, file.exprs.span(rhs)), whole);
+            if self.source == Source::Program {
+                self.graph.cover(whole);
+            }
             span = whole;
         }
         value

@@ -5,7 +5,9 @@ use rustc_hash::FxHashMap;
 use super::NoDerivative;
 use super::activity::activity;
 use super::extend::{extend, states};
-use super::rules::{int_power_partial, is_zero, sum, takes_second, zero_like};
+use super::rules::{
+    int_power_partial, inverse_tangent, is_zero, quotient_correction, sum, takes_second, zero_like,
+};
 use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
 use crate::table::{self, Derivative};
 
@@ -65,6 +67,7 @@ pub fn forward(
         let of_args: smallvec::SmallVec<[Option<Id>; 3]> =
             node.args.iter().map(|a| tangents[a.index()]).collect();
         let tangent = tangent(g, prim, &node, id, &of_args)?;
+        g.cover(g.span(id));
         tangents[id.index()] = tangent.filter(|&t| !is_zero(g, t));
     }
     Ok(roots.iter().map(|r| tangents[r.index()]).collect())
@@ -116,14 +119,17 @@ fn structural(
             sum(g, left, right)
         }
         // (1/b)' = -(1/b) ((1/b) b'), without the square, which underflows early
-        (Prim::Div, &[one, _], &[None, Some(t)]) if g.as_real(one) == Some(1.0) => {
-            let once = g.mul(value, t);
+        (Prim::Div, &[one, b], &[None, Some(t)]) if g.as_real(one) == Some(1.0) => {
+            if let Some(tangent) = inverse_tangent(g, b, t) {
+                return Some(tangent);
+            }
+            let once = quotient_correction(g, value, b, t);
             let product = g.mul(value, once);
             Some(g.neg(product))
         }
         // (a/b)' = (a' - (a/b) b') / b
         (Prim::Div, &[_, b], &[s, t]) => {
-            let correction = t.map(|t| g.mul(value, t));
+            let correction = t.map(|t| quotient_correction(g, value, b, t));
             let numerator = match (s, correction) {
                 (Some(s), Some(c)) => g.sub(s, c),
                 (Some(s), None) => s,

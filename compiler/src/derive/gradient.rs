@@ -1,6 +1,7 @@
 //! Gradients of real expressions by the cheaper of both modes.
 
 use super::jet::wirtinger;
+use super::rules::has_such_quotient;
 use super::{NoDerivative, forward, reverse};
 use crate::ir::{Graph, Id, Prim, Ty, cost};
 
@@ -16,7 +17,8 @@ pub struct Gradient {
 /// The gradient of a real root by real leaves. Forward and reverse mode are both derived, and the one whose
 /// counted cost, together with the value, is lower is kept; of two leaves and through complex numbers, also the
 /// derivative by x + i y, which is one complex tangent in the place of two where a part is holomorphic. Where forward mode finds an exact zero that reverse mode
-/// does not, forward mode is kept: the other would multiply that zero by a slope that may be infinite.
+/// does not, forward mode is kept: the other would multiply that zero by a slope that may be infinite. So it is where a
+/// divisor may overflow.
 ///
 /// # Errors
 /// An operation that depends on a leaf has no derivative rule.
@@ -35,6 +37,7 @@ pub fn gradient(g: &mut Graph, value: Id, leaves: &[Id]) -> Result<Gradient, NoD
         cost(g, &roots).weighted
     };
     if leaves.len() > 1
+        && !has_such_quotient(g, value)
         && let Some(adjoints) = reverse(g, value, leaves)?
         && adjoints
             .iter()

@@ -5,7 +5,9 @@ use rustc_hash::FxHashMap;
 use super::NoDerivative;
 use super::activity::{activity, conjugate_activity};
 use super::extend::{extend, states};
-use super::rules::{int_power_partial, is_zero, sum, takes_second};
+use super::rules::{
+    int_power_partial, inverse_tangent, is_zero, quotient_correction, sum, takes_second,
+};
 use crate::ir::{Graph, Id, Node, Op, Prim, State, Ty};
 use crate::table::{self, Derivative};
 
@@ -358,11 +360,14 @@ impl Rule<'_> {
         if let (None, Some(db)) = (da, db)
             && g.as_real(a) == Some(1.0)
         {
-            let once = g.mul(self.value, db);
+            if let Some(tangent) = inverse_tangent(g, b, db) {
+                return Some(tangent);
+            }
+            let once = quotient_correction(g, self.value, b, db);
             let product = g.mul(self.value, once);
             return Some(g.neg(product));
         }
-        let correction = db.map(|db| g.mul(self.value, db));
+        let correction = db.map(|db| quotient_correction(g, self.value, b, db));
         difference(g, da, correction).map(|n| g.div(n, b))
     }
 

@@ -113,6 +113,7 @@ impl Sweep<'_> {
                 let term = contribution(g, prim, &node.args, id, k, adjoint)?;
                 adjoints[arg.index()] = sum(g, adjoints[arg.index()], term);
             }
+            g.cover(g.span(id));
         }
         let adjoint = |id: Id| adjoints.get(id.index()).copied().flatten();
         let mut partials: Partials = self.leaves.iter().map(|&l| adjoint(l)).collect();

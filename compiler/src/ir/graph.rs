@@ -1,5 +1,6 @@
 //! The hash-consed expression graph.
 
+use pullback_grammar::Span;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
@@ -38,6 +39,8 @@ pub struct Graph {
     nodes: Vec<Node>,
     ids: FxHashMap<Node, Id>,
     names: FxHashMap<Id, String>,
+    /// Where each node comes from in the text; nodes beyond the end come from nowhere yet.
+    spans: Vec<Span>,
     /// Number of states that each binder has given out.
     pub(super) states_of: Vec<u16>,
     /// Number of bound variables that were given out.
@@ -192,6 +195,26 @@ impl Graph {
     #[must_use]
     pub fn name(&self, id: Id) -> Option<&str> {
         self.names.get(&id).map(String::as_str)
+    }
+
+    /// Says where in the text every node comes from that was added since the last call.
+    pub fn cover(&mut self, span: Span) {
+        self.spans.resize(self.nodes.len(), span);
+    }
+
+    /// Says where in the text a node comes from, where that is not known yet.
+    pub fn place(&mut self, id: Id, span: Span) {
+        if let Some(known) = self.spans.get_mut(id.index())
+            && *known == Span::default()
+        {
+            *known = span;
+        }
+    }
+
+    /// The part of the text that a node was written as, or was derived from; empty where that is not known.
+    #[must_use]
+    pub fn span(&self, id: Id) -> Span {
+        self.spans.get(id.index()).copied().unwrap_or_default()
     }
 
     /// Marks the nodes that the roots depend on, themselves included.

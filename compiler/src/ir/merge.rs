@@ -154,6 +154,7 @@ fn rebuild(
         if let (Op::Loop { .. }, Some(k)) = (graph.node(id).op, union) {
             loops.insert(k, new);
         }
+        out.cover(graph.span(id));
         if let Some(name) = graph.name(id) {
             out.set_name(new, name);
         }

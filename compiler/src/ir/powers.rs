@@ -8,7 +8,8 @@ use super::{Graph, Id, Op, Prim, Ty, transcribe};
 const MAX_EXPANDED: u32 = 1 << 16;
 
 /// Rewrites every integer power that the roots depend on as products by repeated squaring, so that xⁿ and
-/// the xⁿ⁻¹ of its derivative share their factors. A negative exponent is the reciprocal of the positive power.
+/// the xⁿ⁻¹ of its derivative share their factors. A negative exponent is the reciprocal of the positive power, but x⁻² the
+/// square of the reciprocal, which neither overflows nor underflows where the result does not; z⁻² of a complex z stays.
 ///
 /// Knuth, The Art of Computer Programming 2, section 4.6.3 (left-to-right binary method).
 #[must_use]
@@ -22,6 +23,10 @@ pub fn expand_powers<'g>(graph: &'g Graph, roots: &[Id]) -> (Cow<'g, Graph>, Vec
     let mut out = Graph::new();
     let roots = transcribe(graph, roots, &mut out, |out, node, args| {
         match (node.op, args) {
+            // one operation, so that each part of it is accurate
+            (Op::Apply(Prim::PowInt(-2)), _) if node.ty == Ty::Complex => {
+                out.intern(node.op, node.ty, args)
+            }
             (Op::Apply(Prim::PowInt(n)), &[base]) if n.unsigned_abs() <= MAX_EXPANDED => {
                 power(out, node.ty, base, n)
             }
@@ -32,6 +37,11 @@ pub fn expand_powers<'g>(graph: &'g Graph, roots: &[Id]) -> (Cow<'g, Graph>, Vec
 }
 
 fn power(g: &mut Graph, ty: Ty, base: Id, n: i32) -> Id {
+    if n == -2 {
+        let one = g.real(1.0);
+        let inverse = g.intern(Op::Apply(Prim::Div), ty, &[one, base]);
+        return g.intern(Op::Apply(Prim::Mul), ty, &[inverse, inverse]);
+    }
     let positive = positive_power(g, ty, base, n.unsigned_abs());
     if n >= 0 {
         return positive;

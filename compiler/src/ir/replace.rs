@@ -90,6 +90,7 @@ impl Graph {
         if new == id {
             return None;
         }
+        self.cover(self.span(id));
         if let Some(name) = self.name(id).map(str::to_owned) {
             self.set_name(new, &name);
         }

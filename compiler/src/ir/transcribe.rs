@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 
 use super::{Binder, Graph, Id, Node, Op};
 
-/// Copies what the roots depend on from `from` to `to`, names included, and gives the roots there. `each` makes the
+/// Copies what the roots depend on from `from` to `to`, names and places included, and gives the roots there. `each` makes the
 /// new node of every old one that is no part of a loop's frame from its copied operands; it must keep the type. States
 /// that no root depends on are left out.
 pub fn transcribe(
@@ -49,6 +49,7 @@ pub fn transcribe(
                 each(to, node, &args)
             }
         };
+        to.cover(from.span(id));
         if let Some(name) = from.name(id) {
             to.set_name(new, name);
         }

@@ -189,10 +189,10 @@ impl Importer {
             local.ty = self.ty(from, to, local.ty)?;
         }
         let mut expressions: Arena<Expression> = Arena::new();
-        for (_, expression) in function.expressions.iter() {
+        for (handle, expression) in function.expressions.iter() {
             let mut expression = expression.clone();
             self.expression(from, to, &mut expression, callees)?;
-            expressions.append(expression, Span::UNDEFINED);
+            expressions.append(expression, function.expressions.get_span(handle));
         }
         function.expressions = expressions;
         function.diagnostic_filter_leaf = None;

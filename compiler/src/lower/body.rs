@@ -11,6 +11,8 @@ pub struct Body {
     pub function: Function,
     emitter: Emitter,
     literals: FxHashMap<u32, Handle<Expression>>,
+    /// Where in the user's text the expressions come from that are added.
+    span: Span,
     /// Blocks around the one that is being written.
     outer: Vec<Block>,
 }
@@ -23,8 +25,14 @@ impl Body {
             function,
             emitter: Emitter::default(),
             literals: FxHashMap::default(),
+            span: Span::UNDEFINED,
             outer: Vec::new(),
         }
+    }
+
+    /// Says where in the user's text the expressions come from that are added from now on.
+    pub fn at(&mut self, span: pullback_grammar::Span) {
+        self.span = Span::new(span.start, span.end);
     }
 
     /// Adds an expression that is computed here.
@@ -32,17 +40,13 @@ impl Body {
         if !self.emitter.is_running() {
             self.emitter.start(&self.function.expressions);
         }
-        self.function
-            .expressions
-            .append(expression, Span::UNDEFINED)
+        self.function.expressions.append(expression, self.span)
     }
 
     /// Adds an expression that must not be emitted: an argument, a literal, a variable.
     pub fn declare(&mut self, expression: Expression) -> Handle<Expression> {
         self.flush();
-        self.function
-            .expressions
-            .append(expression, Span::UNDEFINED)
+        self.function.expressions.append(expression, self.span)
     }
 
     /// A finite literal, each value once.

@@ -119,6 +119,7 @@ pub fn lower(
     };
     lowering.declare_leaves();
     lowering.schedule(&roots)?;
+    lowering.body.at(pullback_grammar::Span::default());
     let value = lowering.output(&interface.output, &roots)?;
     Ok(lowering.body.finish(value))
 }
@@ -206,6 +207,7 @@ impl Lowering<'_, '_, '_> {
             return Ok(());
         }
         let node = self.graph.node(id);
+        self.body.at(self.graph.span(id));
         let value = self.node(node)?;
         self.values[id.index()] = Some(value);
         self.name(id, node, value);
@@ -428,6 +430,7 @@ impl Lowering<'_, '_, '_> {
                 }
                 self.complex_scaled(BinaryOperator::Multiply, inverse, a)
             }
+            (Prim::PowInt(-2), &[z]) => self.library("complex_inverse_square", vec![z]),
             (Prim::PowInt(n), &[z]) => {
                 let n = self.integer(n);
                 self.library("complex_powi", vec![z, n])

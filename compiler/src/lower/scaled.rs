@@ -4,10 +4,10 @@ use naga::{Expression, Handle};
 
 use super::function::Lowering;
 use super::{LowerError, Precision};
-use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
+use crate::ir::{Graph, Id, Node, Op, Prim, Regions, Ty};
 
-/// For each node, whether it is a real power that nothing but one product needs: it is computed there. Not within
-/// loops, where the power may be needed once and the product in every step.
+/// For each node, whether it is a real power that nothing but one product needs: it is computed there. Not where the product
+/// is computed in the steps of a loop that the power is not part of.
 pub(super) fn powers_in_products(
     graph: &Graph,
     roots: &[Id],
@@ -15,9 +15,14 @@ pub(super) fn powers_in_products(
     precision: Precision,
 ) -> Vec<bool> {
     let mut scaled = vec![false; live.len()];
-    if precision != Precision::Accurate || graph.has_loops() {
+    if precision != Precision::Accurate {
         return scaled;
     }
+    let regions = graph.has_loops().then(|| Regions::new(graph, live));
+    let together = |a: Id, b: Id| {
+        let same = |regions: &Regions| regions.innermost(a) == regions.innermost(b);
+        regions.as_ref().is_none_or(same)
+    };
     let mut users = vec![0_u32; live.len()];
     for root in roots {
         users[root.index()] += 1;
@@ -31,7 +36,7 @@ pub(super) fn powers_in_products(
     for arg in nodes().flat_map(|(_, node)| &node.args) {
         users[arg.index()] += 1;
     }
-    for (_, node) in nodes() {
+    for (id, node) in nodes() {
         if node.op != Op::Apply(Prim::Mul) || node.ty != Ty::Real {
             continue;
         }
@@ -47,7 +52,8 @@ pub(super) fn powers_in_products(
                 }
                 _ => false,
             };
-            if fits && users[power.index()] == 1 && graph.ty(factor) == Ty::Real {
+            let once = users[power.index()] == 1 && together(power, id);
+            if fits && once && graph.ty(factor) == Ty::Real {
                 scaled[power.index()] = true;
                 break;
             }

@@ -11,7 +11,7 @@ use crate::lower::Tier;
 use crate::program::{Picture, SettingValue};
 use crate::scene::Scene;
 
-/// A validated module with entry points `vertex_main`, `fragment_main` and `compute_main`.
+/// A validated module with entry points `vertex_main`, `fragment_main`, `compute_main` and `linear_main`.
 #[derive(Clone, Debug)]
 pub struct SceneModule {
     /// The module.

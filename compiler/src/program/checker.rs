@@ -4,6 +4,7 @@ use super::settings::default_settings;
 use super::{MAX_SHOWS, Picture, Signature};
 use crate::check::{Builder, Symbols, nearest, quoted, shortened};
 use crate::scene::{Space, default_scene, scene, scenes};
+use crate::stable::Rewrites;
 use crate::types::Type;
 use pullback_grammar::ast::{Expr, ExprId, File, Function, Item, Show};
 use pullback_grammar::{Diagnostic, Span, print_expr};
@@ -28,6 +29,8 @@ pub(super) struct Checker<'a> {
     pub(super) constants: FxHashMap<&'a str, Type>,
     /// The range of each parameter that states one.
     pub(super) ranges: Vec<Option<(f64, f64)>>,
+    /// The stability rewrites of the formulas.
+    pub(super) rewrites: Rewrites,
 }
 
 impl<'a> Checker<'a> {
@@ -45,6 +48,7 @@ impl<'a> Checker<'a> {
             signatures: FxHashMap::default(),
             constants: FxHashMap::default(),
             ranges: Vec::new(),
+            rewrites: Rewrites::ON,
         }
     }
 

@@ -16,8 +16,10 @@ use checker::Checker;
 pub use function::compile_function;
 use glam::DVec3;
 pub use outline::{ConstantInfo, FunctionInfo, MAX_SIGNATURES, Outline, Signature};
+use pullback_grammar::ast::File;
 use pullback_grammar::diagnostic::limit;
 use pullback_grammar::{Diagnostic, Span};
+use std::sync::Arc;
 pub use unused::MAX_UNUSED;
 
 /// A parameter: a number that can change without compiling again.
@@ -86,6 +88,8 @@ impl Picture {
 pub struct Program {
     params: Vec<ParamInfo>,
     pictures: Vec<Picture>,
+    /// The text, where other rewrites make other derivatives within formulas.
+    file: Option<Arc<File>>,
 }
 
 impl Program {
@@ -95,11 +99,19 @@ impl Program {
         &self.params
     }
 
-    /// The same program with other stability rewrites in all its formulas.
+    /// The same program with other stability rewrites in all its formulas, and in what is differentiated within them.
     #[must_use]
     pub fn with_rewrites(mut self, rewrites: Rewrites) -> Self {
+        let formulas = match self.file.as_deref() {
+            Some(file) => formulas(file, rewrites),
+            None => Vec::new(),
+        };
+        let mut formulas = formulas.into_iter();
         for picture in &mut self.pictures {
-            picture.formula.rewrites = rewrites;
+            match formulas.next() {
+                Some(formula) => picture.formula = formula,
+                None => picture.formula.rewrites = rewrites,
+            }
         }
         self
     }
@@ -166,12 +178,27 @@ fn from_parsed(parsed: pullback_grammar::Parsed) -> Compilation {
     });
     diagnostics.dedup_by(|a, b| a.span == b.span && a.code == b.code && a.message == b.message);
     limit(&mut diagnostics);
-    let program = (!failed && !pictures.is_empty()).then_some(Program { params, pictures });
+    let needs_text = pictures.iter().any(|p| p.formula.derived.is_some());
+    let program = (!failed && !pictures.is_empty()).then(|| Program {
+        params,
+        pictures,
+        file: needs_text.then(|| Arc::new(parsed.file)),
+    });
     Compilation {
         program,
         diagnostics,
         outline,
     }
+}
+
+/// The formulas of the pictures of a file without errors.
+fn formulas(file: &File, rewrites: Rewrites) -> Vec<Formula> {
+    let symbols = Symbols::collect(file, &mut Vec::new());
+    let mut checker = Checker::new(file, &symbols, Vec::new());
+    checker.rewrites = rewrites;
+    checker.params();
+    let pictures = checker.pictures().into_iter();
+    pictures.map(|picture| picture.formula).collect()
 }
 
 /// Greatest number of `show` statements of a program.

@@ -1,8 +1,8 @@
 //! What a picture shows: its inputs, its type, its formula.
 
 use super::checker::{Checker, Subject};
-use crate::check::{free_variables, quoted, shortened, signature};
-use crate::formula::{Formula, Input, argument_value, scalar_types};
+use crate::check::{Builder, Value, free_variables, quoted, shortened, signature};
+use crate::formula::{Form, Formula, Input, argument_value, scalar_types};
 use crate::ir::Graph;
 use crate::scene::{Scene, Space, default_scene};
 use crate::types::Type;
@@ -86,24 +86,7 @@ impl<'a> Checker<'a> {
         span: Span,
     ) -> Option<Formula> {
         let mut builder = self.builder();
-        let mut values = Vec::new();
-        let mut first = 0;
-        for &ty in &types {
-            values.push(argument_value(&mut builder.graph, first, ty));
-            first += scalar_types(ty).len();
-        }
-        let value = match subject {
-            Subject::Function(function) => {
-                let value = builder.call_function(function, values, &[], span);
-                builder.number(value, function.body)
-            }
-            Subject::Formula(body) => {
-                for ((name, _), value) in declared.iter().zip(values) {
-                    builder.define(name, value);
-                }
-                builder.expr(body)
-            }
-        };
+        let value = build(&mut builder, subject, declared, &types, span);
         self.finish(&mut builder);
         if let Subject::Function(function) = subject {
             self.called.insert(&function.name.text);
@@ -123,6 +106,11 @@ impl<'a> Checker<'a> {
             return None;
         }
         let ty = value.ty(&builder.graph)?;
+        let derived = if builder.has_differentiated() {
+            self.derived_form(subject, declared, &types, ty)
+        } else {
+            None
+        };
         let inputs = declared
             .iter()
             .zip(types)
@@ -142,7 +130,27 @@ impl<'a> Checker<'a> {
             graph: builder.graph,
             ty,
             span,
-            rewrites: crate::stable::Rewrites::ON,
+            rewrites: self.rewrites,
+            derived,
+        })
+    }
+
+    /// What [`Self::formula_of`] builds, with the derivatives that stand in it taken of rewritten expressions; `None`
+    /// where nothing is rewritten, or the result would be too large. What is wrong with the text has been reported.
+    fn derived_form(
+        &self,
+        subject: Subject<'a>,
+        declared: &[(&'a str, Option<Type>)],
+        types: &[Type],
+        ty: Type,
+    ) -> Option<Form> {
+        let mut builder = self.builder().with_rewrites(self.rewrites);
+        let span = self.subject_span(subject);
+        let value = build(&mut builder, subject, declared, types, span);
+        let fits = builder.graph.budget().is_ok() && value.ty(&builder.graph) == Some(ty);
+        (builder.has_rewritten() && fits).then(|| Form {
+            value: value.ids(),
+            graph: builder.graph,
         })
     }
 
@@ -316,6 +324,34 @@ impl Checker<'_> {
                 format!("write `{left} - {right}`, which is 0 where both sides agree")
             }
             _ => format!("write `if {shown} then 1 else 0`"),
+        }
+    }
+}
+
+/// The value of a subject at inputs of these names and types.
+fn build<'a>(
+    builder: &mut Builder<'a>,
+    subject: Subject<'a>,
+    declared: &[(&'a str, Option<Type>)],
+    types: &[Type],
+    span: Span,
+) -> Value {
+    let mut values = Vec::new();
+    let mut first = 0;
+    for &ty in types {
+        values.push(argument_value(&mut builder.graph, first, ty));
+        first += scalar_types(ty).len();
+    }
+    match subject {
+        Subject::Function(function) => {
+            let value = builder.call_function(function, values, &[], span);
+            builder.number(value, function.body)
+        }
+        Subject::Formula(body) => {
+            for ((name, _), value) in declared.iter().zip(values) {
+                builder.define(name, value);
+            }
+            builder.expr(body)
         }
     }
 }

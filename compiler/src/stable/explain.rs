@@ -72,7 +72,8 @@ fn scalar_names(input: &crate::formula::Input) -> Vec<String> {
 }
 
 fn steps(formula: &Formula, rewrites: Rewrites, names: LeafNames) -> Vec<Step> {
-    let early = stabilise(&formula.graph, &formula.value, rewrites, Phase::Early);
+    let (graph, value) = formula.to_compile();
+    let early = stabilise(graph, value, rewrites, Phase::Early);
     let late = stabilise(&early.graph, &early.roots, rewrites, Phase::Late);
     let step = |graph: &Graph, applied: &Applied| Step {
         rules: applied.rules.clone(),

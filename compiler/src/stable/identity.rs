@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::guard::is_real;
+use super::guard::{choose, is_real, less};
 use super::pass::{Pass, only_atom};
 use super::polynomial::{Expand, Monomial, Polynomial, build, build_monomial};
 use super::rule::Rule;
@@ -85,7 +85,10 @@ impl Pass {
             g.apply(Prim::Sqrt, &[sum]),
         );
         let product = g.mul(left, right);
-        self.by(Rule::RootOfSquares, product)
+        // there the difference of the squares may be 0, because both are
+        let (is_below, written) = (less(g, u, v), g.apply(Prim::Sqrt, &[self.plain(a)]));
+        let new = choose(g, is_below, written, product);
+        self.by(Rule::RootOfSquares, new)
     }
 
     fn log_of(&mut self, g: &mut Graph, a: Id) -> Option<Id> {

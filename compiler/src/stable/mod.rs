@@ -4,9 +4,9 @@
 //! exactly where terms cancel ([`difference`](self)); beside that stand closed identities. Each rewrite is a
 //! [`Record`]: its equation, and where it holds in floating point. "Unknown" means no.
 //!
-//! Rules run twice. Those that keep derivatives good change the formula before it is differentiated; all of them
-//! run over what is computed in the end, values and derivatives alike. The `f64` reference runs none: it computes
-//! what is written.
+//! Rules run twice. Those that keep derivatives good change the formula before it is differentiated, and what a
+//! derivative within a formula is taken of; all of them run over what is computed in the end, values and derivatives
+//! alike. The `f64` reference runs none: it computes what is written.
 
 mod cardinal;
 mod explain;
@@ -51,11 +51,13 @@ pub fn finish(graph: Graph, roots: Vec<Id>, rewrites: Rewrites) -> (Graph, Vec<I
     (stable.graph, stable.roots)
 }
 
-/// What is differentiated where a derivative stands in a formula: the roots, in the same graph, rewritten by the rules that
-/// keep derivatives good. Nobody has written that derivative, so it is the better one in every evaluator. Roots with loops
-/// stay: a value and its tangents share those.
+/// What is differentiated where a derivative stands in a formula: the roots, in the same graph, rewritten by those of the
+/// rules that keep derivatives good; `None` where none applies. Roots with loops stay: a value and its tangents share those.
 #[must_use]
-pub fn before_derivative(graph: &mut Graph, roots: &[Id]) -> Vec<Id> {
+pub fn before_derivative(graph: &mut Graph, roots: &[Id], rewrites: Rewrites) -> Option<Vec<Id>> {
+    if !rewrites.any() {
+        return None;
+    }
     let live = graph.reachable(roots);
     let of_loop = |op| {
         matches!(
@@ -64,15 +66,18 @@ pub fn before_derivative(graph: &mut Graph, roots: &[Id]) -> Vec<Id> {
         )
     };
     if (graph.nodes().iter().zip(&live)).any(|(node, live)| *live && of_loop(node.op)) {
-        return roots.to_vec();
+        return None;
     }
-    let stable = stabilise(graph, roots, Rewrites::ON, Phase::Early);
+    let stable = stabilise(graph, roots, rewrites, Phase::Early);
     if stable.applied.is_empty() {
-        return roots.to_vec();
+        return None;
     }
-    transcribe(&stable.graph, &stable.roots, graph, |g, node, args| {
-        g.intern(node.op, node.ty, args)
-    })
+    Some(transcribe(
+        &stable.graph,
+        &stable.roots,
+        graph,
+        |g, node, args| g.intern(node.op, node.ty, args),
+    ))
 }
 
 #[cfg(test)]

@@ -159,6 +159,11 @@ impl Pass {
         Some(result)
     }
 
+    /// Whether a rule has taken part in the rewrite at hand.
+    pub(super) fn has_used(&self, rule: Rule) -> bool {
+        self.used.contains(&rule)
+    }
+
     /// How much has been noted, for [`Self::reset`].
     pub(super) fn marks(&self) -> (usize, usize) {
         (self.used.len(), self.lost.len())

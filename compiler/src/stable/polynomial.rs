@@ -40,6 +40,8 @@ pub enum Expand {
     Constants,
     /// Every product.
     All,
+    /// Every product, but a multiple by a constant without an exact square is an atom.
+    Multiples,
 }
 
 impl Polynomial {
@@ -214,6 +216,12 @@ fn read(reader: &Reader, id: Id, depth: usize) -> Option<Polynomial> {
         (Op::Apply(Prim::Neg), &[a]) => Polynomial::default().add(&go(a)?, -1.0),
         (Op::Apply(Prim::Add), &[a, b]) => go(a)?.add(&go(b)?, 1.0),
         (Op::Apply(Prim::Sub), &[a, b]) => go(a)?.add(&go(b)?, -1.0),
+        (Op::Apply(Prim::Mul), &[a, b])
+            if expand == Expand::Multiples
+                && [a, b].iter().any(|&factor| has_no_square(g, plain(factor))) =>
+        {
+            atom()
+        }
         (Op::Apply(Prim::Mul), &[a, b]) => {
             let (Some(p), Some(q)) = (go(a), go(b)) else {
                 return atom();
@@ -244,6 +252,11 @@ fn read(reader: &Reader, id: Id, depth: usize) -> Option<Polynomial> {
     }
 }
 
+/// Whether a node is a constant whose square is not exact.
+fn has_no_square(g: &Graph, id: Id) -> bool {
+    constant(g, id).is_some_and(|c| exact_product(c, c).is_none())
+}
+
 /// A sum as one factor.
 fn as_factor(p: Polynomial, id: Id) -> Polynomial {
     if p.terms.len() <= 1 {
@@ -255,7 +268,7 @@ fn as_factor(p: Polynomial, id: Id) -> Polynomial {
 
 fn product(p: &Polynomial, q: &Polynomial, expand: Expand) -> Option<Polynomial> {
     let fits = match expand {
-        Expand::All => true,
+        Expand::All | Expand::Multiples => true,
         Expand::Constants => {
             let short = |p: &Polynomial| p.terms.len() <= 1;
             (short(p) && short(q)) || p.constant().is_some() || q.constant().is_some()

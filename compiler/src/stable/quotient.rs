@@ -2,8 +2,11 @@
 
 use smallvec::SmallVec;
 
+use super::guard::{choose, less, scaled};
 use super::pass::Pass;
-use super::polynomial::{Expand, Monomial, Polynomial, build, constant};
+use super::polynomial::{
+    Expand, Monomial, Polynomial, build, build_monomial, build_term, constant,
+};
 use super::rule::Rule;
 use crate::ir::{Graph, Id, Op, Prim};
 
@@ -57,7 +60,9 @@ impl Pass {
         }
         let first = product(g, left.numerator, &missing_left);
         let second = product(g, right.numerator, &missing_right);
+        let squares = self.has_used(Rule::Squares);
         let mut numerator = self.simple_difference(g, first, second, depth)?;
+        let is_of_squares = !squares && self.has_used(Rule::Squares);
         self.shorten(g, &mut numerator, &mut divisors);
         // the divisors with more terms first: what the numerator is near to
         divisors.sort_by_key(|&d| {
@@ -67,6 +72,11 @@ impl Pass {
             std::cmp::Reverse(terms.unwrap_or(1))
         });
         let out = divided(g, numerator, &divisors);
+        let out = if is_of_squares {
+            where_it_cancels(g, a, k, b, out)?
+        } else {
+            out
+        };
         self.by(Rule::Quotients, out)
     }
 
@@ -140,7 +150,7 @@ impl Pass {
             },
         );
         monomial.retain(|(_, p)| *p != 0);
-        *numerator = super::polynomial::build_term(g, &monomial, *value);
+        *numerator = build_term(g, &monomial, *value);
     }
 
     /// Whether [`Self::quotient`] may find a divisor in a monomial; to be known before one is built.
@@ -200,6 +210,17 @@ impl Pass {
             divisors,
         })
     }
+}
+
+/// A difference over a common denominator whose numerator is one of squares, where a - k b is of smaller size than a; else a -
+/// k b as it is written: with the larger term's rounding alone, where the other has three more.
+fn where_it_cancels(g: &mut Graph, a: &Monomial, k: f64, b: &Monomial, new: Id) -> Option<Id> {
+    let (first, second) = (build_monomial(g, a)?, build_term(g, b, k));
+    let written = g.sub(first, second);
+    let [difference, size] = [written, first].map(|x| g.apply(Prim::Abs, &[x]));
+    let double = scaled(g, 2.0, difference);
+    let condition = less(g, double, size);
+    Some(choose(g, condition, new, written))
 }
 
 /// Whether the terms of highest or of lowest degree have vanished: only those are what large or small values cancel in.

@@ -42,7 +42,7 @@ macro_rules! rules {
 rules! {
     Cancel "cancel", true, "real and complex":
         "(a + b) - a = b",
-        "terms of a sum that are the same but for a constant factor are added first, where the factors add exactly; a term that vanishes stays as 0·a, so that a NaN or an infinity of it still gives NaN. Where b is far below a, b comes out instead of 0",
+        "terms of a sum that are the same but for a constant factor are added first, where the factors add exactly; a term that vanishes stays as 0·a, so that a NaN or an infinity of it still gives NaN. Products of sums are multiplied out where just one term is left so. Where b is far below a, b comes out instead of 0",
         "distributive law";
     Constants "constants", true, "real and complex":
         "(c·a)/d = (c/d)·a",
@@ -54,7 +54,7 @@ rules! {
         "distributive law";
     Quotients "quotients", true, "real and complex":
         "a/b - c/d = (a·d - c·b)/b/d",
-        "only where the numerator loses its terms to cancellation or is simplified by another rule, and has no exponential in it; the divisions follow one another, so that b·d cannot overflow. At a pole the infinity is that of the pole; where both terms are infinite, the limit comes out instead of NaN",
+        "only where the numerator loses its terms to cancellation or is simplified by another rule, and has no exponential in it; the divisions follow one another, so that b·d cannot overflow. Where the numerator is a difference of squares, guarded by 2|a/b - c/d| < |a/b|, else as written: there nothing cancels, and the written form rounds less. At a pole the infinity is that of the pole; where both terms are infinite, the limit comes out instead of NaN",
         "N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., section 1.7";
     Products "products", true, "real":
         "a·b - c·d = a·(b - d) + d·(a - c)",
@@ -202,7 +202,7 @@ rules! {
         "DLMF 4.19.1, 4.33.1, 4.2.19";
     RootOfSquares "root-of-squares", false, "real":
         "√(a² - b²) = √(|a| - |b|)·√(|a| + |b|)",
-        "everywhere, but for a constant a or b; neither overflows nor underflows where the result does not, nor cancels. NaN for |a| < |b|, where a² and b² underflow, too; infinite a and b give NaN either way",
+        "guarded by |b| ≤ |a|, else as written, which is NaN but where a² and b² underflow; not for a constant a or b. Neither overflows nor underflows where the result does not, nor cancels; infinite a and b give NaN either way",
         "Higham, section 1.14";
     LogTan "log-tan", true, "real":
         "log(tan(π/4 + a)) = 2·atanh(tan a)",

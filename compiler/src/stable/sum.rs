@@ -27,6 +27,11 @@ impl Pass {
             return None;
         }
         self.inputs_too = false;
+        if p.vanished == 0
+            && let Some(term) = self.one_term(g, id)
+        {
+            return Some(term);
+        }
         let strict = self.improved(g, p.clone(), MAX_DEPTH);
         if strict.is_some() || self.phase == Phase::Early {
             return strict;
@@ -35,6 +40,22 @@ impl Pass {
         let found = self.improved(g, p, MAX_DEPTH);
         self.inputs_too = false;
         found
+    }
+
+    /// The one term that is left of a sum where its products are multiplied out, and others vanish.
+    fn one_term(&mut self, g: &mut Graph, id: Id) -> Option<Id> {
+        if !self.on(Rule::Cancel) {
+            return None;
+        }
+        let forms = [Expand::All, Expand::Multiples];
+        let left = |p: &Polynomial| p.vanished > 0 && p.single().is_some_and(|t| !t.0.is_empty());
+        let found = forms
+            .into_iter()
+            .filter_map(|expand| self.polynomial(g, id, expand))
+            .find(left)?;
+        self.lose(&found);
+        let term = build(g, &found.terms);
+        self.by(Rule::Cancel, term)
     }
 
     /// u - v, where it is simpler than that.

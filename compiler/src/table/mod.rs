@@ -11,6 +11,7 @@ mod complex;
 mod derivative;
 mod exponential;
 mod hyperbolic;
+mod library;
 mod number;
 mod rounding;
 mod slope;
@@ -25,6 +26,7 @@ use naga::{BinaryOperator, MathFunction, UnaryOperator};
 use rustc_hash::FxHashMap;
 
 pub use bounds::{Bound, Bounds, Metric, bounds, bounds_of};
+pub use library::{Direct, Meaning, meaning};
 pub use number::Number;
 pub(crate) use slope::direction;
 pub use special::MAX_POLYGAMMA;

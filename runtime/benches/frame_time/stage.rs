@@ -140,7 +140,7 @@ impl Canvas {
         let pass = self
             .gpu
             .guarded("compiling a pipeline", || match pipeline {
-                Pipeline::Compute => Pass::Compute(self.compute(&shader)),
+                Pipeline::Compute | Pipeline::Linear => Pass::Compute(self.compute(&shader)),
                 Pipeline::Fragment => Pass::Fragment(self.fragment(&shader)),
             })?;
         let built = start.elapsed().as_secs_f64();
@@ -179,7 +179,7 @@ impl Canvas {
             count: None,
         };
         let stages = match pipeline {
-            Pipeline::Compute => wgpu::ShaderStages::COMPUTE,
+            Pipeline::Compute | Pipeline::Linear => wgpu::ShaderStages::COMPUTE,
             Pipeline::Fragment => wgpu::ShaderStages::FRAGMENT,
         };
         let mut entries: Vec<_> = [0, 1, 2, 3]

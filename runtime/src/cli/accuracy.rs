@@ -12,7 +12,7 @@ use pullback_runtime::{Error, Gpu, atomic_file};
 
 use super::failure::Failure;
 use super::progress::Progress;
-use super::{Console, Device, open, spelling};
+use super::{Adapter, Console, open, spelling};
 
 pub(super) const EXIT_CODES: &str = "\
 Exit codes:
@@ -32,7 +32,7 @@ pub(super) struct AccuracyArguments {
     #[arg(long, value_enum, value_delimiter = ',')]
     precision: Vec<Judged>,
     #[command(flatten)]
-    device: Device,
+    device: Adapter,
     /// How the table is written
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -123,7 +123,7 @@ pub(super) fn run(arguments: &AccuracyArguments, console: &Console) -> Result<()
 fn devices(arguments: &AccuracyArguments, console: &Console) -> Result<Vec<Gpu>, Failure> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = arguments.threads.map_or(cores.min(16), usize::from);
-    let mut gpus = vec![open(&arguments.device, console)?];
+    let mut gpus = vec![open(&arguments.device.adapter, console)?];
     while gpus.len() < threads {
         gpus.push(Gpu::open(&arguments.device.adapter)?);
     }

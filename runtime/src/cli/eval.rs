@@ -8,9 +8,11 @@ use clap::{Args, ValueEnum};
 use pullback_compiler::{Evaluator, What};
 use pullback_runtime::GpuEvaluator;
 use pullback_runtime::evaluate::Surroundings;
+use pullback_runtime::executor::Rows;
 use pullback_runtime::rows::{self, Number, RowError, RowReader};
 
 use super::failure::Failure;
+use super::place::Computer;
 use super::progress::Progress;
 use super::source::Source;
 use super::{Console, Device, Input, Numbers, Rules, Settings, Which, overrides};
@@ -64,9 +66,9 @@ enum Part {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Place {
-    /// The graphics adapter, in the precision of the tier
+    /// The shader, on what --adapter names
     Gpu,
-    /// The processor, in double precision
+    /// The formula itself, without any shader, in double precision
     Reference,
 }
 
@@ -104,13 +106,24 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
         }
         Place::Gpu => {
             let settings = &source.program.pictures()[index].settings;
-            let precision = arguments.numbers.without_view(settings)?;
-            let gpu = super::open(&arguments.device, console)?;
-            let tier = super::tier(&gpu, precision)?;
+            let wanted = arguments.numbers.without_view(settings)?;
+            let computer = Computer::open(&arguments.device.adapter, console)?;
+            let tier = computer.tier(arguments.numbers.precision, Some(wanted))?;
             let module = source.program.eval_module(index, what, tier);
             let module = source.expect(module, console)?;
             let mut table = Table::open(arguments, &module.inputs)?;
-            let evaluator = GpuEvaluator::new(&gpu, &module)?;
+            let gpu = match &computer {
+                Computer::Adapter(gpu) => gpu,
+                Computer::Processor(arithmetic) => {
+                    let mut machine = OnProcessor {
+                        rows: Rows::new(&module, *arithmetic)?,
+                        outputs: module.outputs.len(),
+                        surroundings,
+                    };
+                    return table.run(&mut machine, console);
+                }
+            };
+            let evaluator = GpuEvaluator::new(gpu, &module)?;
             if module.tier.precision.format().is_wide() {
                 let mut machine = WideOnDevice {
                     evaluator,
@@ -204,6 +217,24 @@ impl Machine for WideOnDevice<'_> {
         Ok(self
             .evaluator
             .eval_exactly(surroundings, count, rows, results)?)
+    }
+}
+
+struct OnProcessor<'a> {
+    rows: Rows,
+    outputs: usize,
+    surroundings: Surroundings<'a>,
+}
+
+impl Machine for OnProcessor<'_> {
+    type Number = f64;
+
+    fn outputs(&self) -> usize {
+        self.outputs
+    }
+
+    fn eval(&mut self, count: usize, rows: &[f64], results: &mut Vec<f64>) -> Result<(), Failure> {
+        Ok(self.rows.eval(self.surroundings, count, rows, results)?)
     }
 }
 

@@ -52,14 +52,14 @@ struct Related {
 }
 
 /// A part of the text: bytes, and lines with columns as the Language Server Protocol counts them.
-#[derive(Debug, Serialize)]
-struct Place {
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Place {
     start: usize,
     end: usize,
     range: Range,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 struct Range {
     start: Position,
     end: Position,
@@ -187,13 +187,13 @@ impl FileReport {
 }
 
 /// A text and where its lines begin.
-struct Places<'a> {
+pub(super) struct Places<'a> {
     text: &'a str,
     starts: Vec<usize>,
 }
 
 impl<'a> Places<'a> {
-    fn new(text: &'a str) -> Self {
+    pub(super) fn new(text: &'a str) -> Self {
         let bytes = text.as_bytes();
         let ends_line = |&at: &usize| match bytes[at] {
             b'\n' => true,
@@ -221,7 +221,7 @@ impl<'a> Places<'a> {
     }
 
     /// The place of a span; one beyond the text is at its end.
-    fn place(&self, span: Span) -> Place {
+    pub(super) fn place(&self, span: Span) -> Place {
         let fit = |at: u32| {
             let at = (at as usize).min(self.text.len());
             (0..=at)

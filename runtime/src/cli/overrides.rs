@@ -22,6 +22,16 @@ enum Value {
     Word(String),
 }
 
+impl Assignment {
+    /// A name gets one number.
+    pub(super) fn number(name: &str, value: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            value: Value::Numbers(vec![value]),
+        }
+    }
+}
+
 impl FromStr for Assignment {
     type Err = String;
 
@@ -58,17 +68,28 @@ pub(super) fn for_picture(
     let mut params = defaults(program);
     let mut settings = picture.settings.clone();
     for assignment in assignments {
-        if set_parameter(assignment, program, &mut params)? {
-            continue;
-        }
-        let name = assignment.name.as_str();
-        let Some(setting) = settings.iter_mut().find(|s| s.spec.name == name) else {
-            let names = picture.scene.settings.iter().map(|spec| spec.name);
-            return Err(unknown("parameter or setting", name, program, names));
-        };
-        setting.value = components(setting.spec, &assignment.value).map_err(Failure::usage)?;
+        assign(assignment, program, &mut params, &mut settings)?;
     }
     Ok((params, settings))
+}
+
+/// Sets a parameter of the program or a setting of the picture.
+pub(super) fn assign(
+    assignment: &Assignment,
+    program: &Program,
+    params: &mut [f64],
+    settings: &mut [SettingValue],
+) -> Result<(), Failure> {
+    if set_parameter(assignment, program, params)? {
+        return Ok(());
+    }
+    let name = assignment.name.as_str();
+    let Some(setting) = settings.iter_mut().find(|s| s.spec.name == name) else {
+        let names = settings.iter().map(|setting| setting.spec.name);
+        return Err(unknown("parameter or setting", name, program, names));
+    };
+    setting.value = components(setting.spec, &assignment.value).map_err(Failure::usage)?;
+    Ok(())
 }
 
 /// The program's parameters after all assignments.

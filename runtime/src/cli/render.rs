@@ -1,18 +1,24 @@
 //! `pullback render`
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 use pullback_compiler::lower::Precision;
 use pullback_compiler::scene::{SettingKind, Space};
-use pullback_compiler::{Picture, SettingValue};
+use pullback_compiler::{Picture, SceneModule, SettingValue};
+use pullback_runtime::animation::Container;
 use pullback_runtime::auto::{self, Scenery};
+use pullback_runtime::executor::Painter;
+use pullback_runtime::image_file::Format;
 use pullback_runtime::render::{MAX_SAMPLES, MAX_SIDE};
 use pullback_runtime::{
-    Frame, Gpu, Metadata, Pipeline, Renderer, Size, View, fill_in_scale, image_file,
+    Error, Frame, Gpu, Metadata, Pipeline, Renderer, RowSink, Size, View, fill_in_scale, image_file,
 };
 
+use super::animate::{Animation, Reel};
 use super::failure::Failure;
+use super::place::Computer;
 use super::progress::{Counted, Progress};
 use super::source::Source;
 use super::{Console, Device, Input, Numbers, Output, Rules, Settings, Which, overrides};
@@ -31,6 +37,9 @@ pub(super) struct RenderArguments {
     #[arg(long, default_value_t = 2, value_name = "N",
           value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     samples: u32,
+    /// Bits of a number: 8 or 16 in a PNG, 16 or 32 in an .exr file, which holds linear light [default: 8, or 32]
+    #[arg(long, value_name = "BITS")]
+    depth: Option<u32>,
     /// World coordinates of the centre
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     center: Option<[f64; 2]>,
@@ -50,6 +59,8 @@ pub(super) struct RenderArguments {
     numbers: Numbers,
     #[command(flatten)]
     rules: Rules,
+    #[command(flatten)]
+    animation: Animation,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -65,7 +76,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     let picture = &source.program.pictures()[index];
     let (params, mut settings) =
         overrides::for_picture(&arguments.settings.set, &source.program, picture)?;
-    let view = view(arguments, picture, &settings)?;
+    let view = view(arguments.center, arguments.height, picture, &settings)?;
     fill_in_scale(
         &mut settings,
         picture,
@@ -74,6 +85,13 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         &params,
         arguments.settings.time,
     );
+    let path = arguments
+        .output
+        .output
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{}.png", source.stem)));
+    let shown = name(&path);
+    let (frames, format) = kind(arguments, &path)?;
     let mut frame = Frame {
         view,
         params: &params,
@@ -82,66 +100,140 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         samples: arguments.samples,
         time: arguments.settings.time,
         pipeline: match arguments.pipeline {
+            _ if format.is_linear() => Pipeline::Linear,
             Stage::Compute => Pipeline::Compute,
             Stage::Fragment => Pipeline::Fragment,
         },
     };
-    let gpu = super::open(&arguments.device, console)?;
-    let precision = match arguments.numbers.wanted(&settings) {
-        Some(precision) => precision,
-        None => {
+    let computer = Computer::open(&arguments.device.adapter, console)?;
+    let wanted = match (&computer, arguments.numbers.wanted(&settings)) {
+        (Computer::Adapter(gpu), None) => {
             let scenery = Scenery {
                 program: &source.program,
                 picture: index,
                 settings: &settings,
                 frame: &frame,
             };
-            chosen(&gpu, &scenery, &source, console)?
+            Some(chosen(gpu, &scenery, &source, console)?)
         }
+        (_, wanted) => wanted,
     };
-    let tier = super::tier(&gpu, precision)?;
+    let tier = computer.tier(arguments.numbers.precision, wanted)?;
     let scene = source.expect(source.program.scene_module(index, tier), console)?;
     let bytes = scene.pack_settings(&settings);
     frame.settings = &bytes;
-    if let Some(warning) = unresolved(picture, &frame, precision) {
+    if let Some(warning) = unresolved(picture, &frame, tier.precision) {
         console.warning(&warning);
     }
-    let metadata = metadata(&source, picture, &settings, &frame, precision, &gpu);
-    let path = arguments
-        .output
-        .output
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(format!("{}.png", source.stem)));
-    let shown = name(&path);
+    let metadata = metadata(
+        &source,
+        picture,
+        &settings,
+        &frame,
+        tier.precision,
+        &computer,
+    );
     let mut progress = Progress::new(console);
-    let mut renderer = Renderer::new(&gpu, &scene)?;
-    image_file::write_png(&path, frame.size, &metadata, |sink| {
-        renderer.render(
-            &frame,
-            &mut Counted {
-                sink,
-                progress: &mut progress,
-            },
-        )
+    let mut artist = Artist::new(&computer, &scene, frame.pipeline)?;
+    if let Some(frames) = frames {
+        let reel = Reel {
+            program: &source.program,
+            scene: &scene,
+            settings: &settings,
+            still: frame,
+        };
+        let output = (path.as_path(), format, &metadata);
+        arguments
+            .animation
+            .write(&reel, frames, &mut artist, output, &mut progress)?;
+        progress.finish();
+        console.note(&drawn(&shown, arguments.size, Some(frames), &progress));
+        return Ok(());
+    }
+    image_file::write(&path, format, frame.size, &metadata, |sink| {
+        let mut sink = Counted {
+            sink,
+            progress: &mut progress,
+        };
+        artist.render(&frame, &settings, &mut sink)
     })
     .map_err(Failure::writing(&shown))?;
     progress.finish();
-    let Size { width, height } = frame.size;
-    console.note(&format!(
-        "{shown}: {width}x{height}, {:.2} s",
-        progress.elapsed().as_secs_f64()
-    ));
+    console.note(&drawn(&shown, frame.size, None, &progress));
     Ok(())
 }
 
+/// How many frames are wanted, none for a still picture, and what the file or files hold.
+fn kind(arguments: &RenderArguments, path: &Path) -> Result<(Option<u32>, Format), Failure> {
+    let format = Format::of(path, arguments.depth)
+        .map_err(|message| Failure::usage_hint(message, "leave --depth out, or change it"))?;
+    if format.is_linear() && matches!(arguments.pipeline, Stage::Fragment) {
+        return Err(Failure::usage_hint(
+            "the fragment stage gives 8 bits of sRGB",
+            "leave --pipeline out",
+        ));
+    }
+    if format.is_linear() && Container::of(path).is_some() {
+        return Err(Failure::usage_hint(
+            format!("{} holds 8 bits of sRGB", name(path)),
+            "leave --depth out, or write numbered .png files",
+        ));
+    }
+    Ok((arguments.animation.frames(path)?, format))
+}
+
+/// What draws.
+pub(super) enum Artist {
+    Device(Box<Renderer>),
+    Processor(Box<Painter>),
+}
+
+impl Artist {
+    pub(super) fn new(
+        computer: &Computer,
+        scene: &SceneModule,
+        pipeline: Pipeline,
+    ) -> Result<Self, Failure> {
+        Ok(match computer {
+            Computer::Adapter(gpu) => Self::Device(Box::new(Renderer::new(gpu, scene)?)),
+            Computer::Processor(arithmetic) => {
+                Self::Processor(Box::new(Painter::new(scene, *arithmetic, pipeline)?))
+            }
+        })
+    }
+
+    pub(super) fn render(
+        &mut self,
+        frame: &Frame,
+        settings: &[SettingValue],
+        sink: &mut dyn RowSink,
+    ) -> Result<(), Error> {
+        match self {
+            Self::Device(renderer) => renderer.render(frame, sink),
+            Self::Processor(painter) => {
+                painter.render(frame, settings, &AtomicBool::new(false), sink)
+            }
+        }
+    }
+}
+
+/// What has been written, and how long it took.
+fn drawn(name: &str, size: Size, frames: Option<u32>, progress: &Progress) -> String {
+    let Size { width, height } = size;
+    let count = frames.map_or(String::new(), |frames| format!("{frames} pictures of "));
+    let seconds = progress.elapsed().as_secs_f64();
+    format!("{name}: {count}{width}x{height}, {seconds:.2} s")
+}
+
 /// What is seen: of a plane by the options, then by the settings; scenes of space have a camera in their settings.
-fn view(
-    arguments: &RenderArguments,
+pub(super) fn view(
+    wanted_center: Option<[f64; 2]>,
+    wanted_height: Option<f64>,
     picture: &Picture,
     settings: &[SettingValue],
 ) -> Result<View, Failure> {
     if picture.scene.space == Space::Space {
-        if arguments.center.is_some() || arguments.height.is_some() {
+        if wanted_center.is_some() || wanted_height.is_some() {
             return Err(Failure::usage_hint(
                 format!(
                     "scene `{}` has no plane to be looked at",
@@ -164,13 +256,13 @@ fn view(
     let center = setting("center").unwrap_or_default();
     let height = setting("height").map_or(2.0, |value| value.x);
     Ok(View {
-        center: arguments.center.unwrap_or([center.x, center.y]),
-        height: arguments.height.unwrap_or(height),
+        center: wanted_center.unwrap_or([center.x, center.y]),
+        height: wanted_height.unwrap_or(height),
     })
 }
 
 /// The tier that `auto` takes; says which and why.
-fn chosen(
+pub(super) fn chosen(
     gpu: &Gpu,
     scenery: &Scenery,
     source: &Source,
@@ -213,7 +305,7 @@ fn metadata(
     settings: &[SettingValue],
     frame: &Frame,
     precision: Precision,
-    gpu: &Gpu,
+    computer: &Computer,
 ) -> Metadata {
     let [x, y] = frame.view.center;
     let Size { width, height } = frame.size;
@@ -246,7 +338,7 @@ fn metadata(
         ("Parameters", params.join("; ")),
         ("Settings", settings.join("; ")),
         ("Precision", precision.name().to_owned()),
-        ("Adapter", gpu.adapter().to_string()),
+        ("Adapter", computer.to_string()),
     ])
 }
 
@@ -271,7 +363,7 @@ pub(super) fn name(path: &Path) -> String {
 }
 
 /// `WxH`
-fn size(text: &str) -> Result<Size, String> {
+pub(super) fn size(text: &str) -> Result<Size, String> {
     let side = |part: &str| part.trim().parse::<u32>().ok();
     let (width, height) = text
         .split_once(['x', 'X', '×'])
@@ -284,14 +376,14 @@ fn size(text: &str) -> Result<Size, String> {
 }
 
 /// `x,y`
-fn point(text: &str) -> Result<[f64; 2], String> {
+pub(super) fn point(text: &str) -> Result<[f64; 2], String> {
     text.split_once(',')
         .and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]))
         .filter(|point: &[f64; 2]| point.iter().all(|c| c.is_finite()))
         .ok_or_else(|| "write X,Y, such as -0.5,0".into())
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     text.parse()
         .ok()
         .filter(|&value: &f64| value > 0.0 && value.is_finite())

@@ -1,11 +1,11 @@
-//! Tiles by the compute entry point, into a storage buffer.
+//! Tiles by a compute entry point, into a storage buffer.
 
-use super::{Recorded, Stage, Uniforms, uniform_layout};
+use super::{Pipeline, Recorded, Stage, Uniforms, uniform_layout};
 use crate::buffers::Growing;
 use crate::tiles::Tile;
 use crate::{Error, Gpu};
 
-/// Side of a workgroup of `compute_main`.
+/// Side of a workgroup of the entry points.
 const WORKGROUP: u32 = 8;
 
 /// Pipeline and buffers of the compute path.
@@ -16,6 +16,7 @@ pub(super) struct ComputeStage {
     image: Growing,
     readable: Growing,
     bindings: Option<wgpu::BindGroup>,
+    bytes_per_pixel: u64,
     max_pixels: u64,
     max_side: u32,
 }
@@ -24,7 +25,7 @@ impl ComputeStage {
     pub(super) fn new(
         gpu: &Gpu,
         shader: &wgpu::ShaderModule,
-        _uniforms: &Uniforms,
+        pipeline: Pipeline,
     ) -> Result<Self, Error> {
         let device = gpu.device();
         let stages = wgpu::ShaderStages::COMPUTE;
@@ -40,6 +41,11 @@ impl ComputeStage {
             count: None,
         };
         let limits = device.limits();
+        let bytes_per_pixel = pipeline.bytes_per_pixel() as u64;
+        let entry = match pipeline {
+            Pipeline::Linear => "linear_main",
+            Pipeline::Compute | Pipeline::Fragment => "compute_main",
+        };
         gpu.guarded("compiling the compute pipeline", || {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some("compute"),
@@ -54,7 +60,7 @@ impl ComputeStage {
                 label: Some("compute"),
                 layout: Some(&pipeline_layout),
                 module: shader,
-                entry_point: Some("compute_main"),
+                entry_point: Some(entry),
                 compilation_options: wgpu::PipelineCompilationOptions {
                     zero_initialize_workgroup_memory: false,
                     ..Default::default()
@@ -67,10 +73,11 @@ impl ComputeStage {
                 image: Growing::results(),
                 readable: Growing::readable(),
                 bindings: None,
+                bytes_per_pixel,
                 max_pixels: limits
                     .max_storage_buffer_binding_size
                     .min(limits.max_buffer_size)
-                    / 4,
+                    / bytes_per_pixel,
                 max_side: limits
                     .max_compute_workgroups_per_dimension
                     .saturating_mul(WORKGROUP),
@@ -89,7 +96,7 @@ impl Stage for ComputeStage {
     }
 
     fn record(&mut self, gpu: &Gpu, uniforms: &Uniforms, tile: Tile) -> Result<Recorded, Error> {
-        let bytes = tile.pixels() * 4;
+        let bytes = tile.pixels() * self.bytes_per_pixel;
         let (image, new) = self.image.at_least(gpu, bytes)?;
         let (readable, _) = self.readable.at_least(gpu, bytes)?;
         if new {
@@ -132,7 +139,7 @@ impl Stage for ComputeStage {
             encoder,
             readable,
             bytes,
-            stride: tile.width as usize * 4,
+            stride: tile.width as usize * self.bytes_per_pixel as usize,
         })
     }
 }

@@ -15,7 +15,10 @@ pub fn with_rewrites(formula: &Formula, on: bool) -> Formula {
 pub fn count(formula: &Formula) -> usize {
     [Phase::Early, Phase::Late]
         .into_iter()
-        .map(|phase| stabilise(&formula.graph, &formula.value, Rewrites::ON, phase))
+        .map(|phase| {
+            let (graph, value) = formula.to_compile();
+            stabilise(graph, value, Rewrites::ON, phase)
+        })
         .map(|stable| stable.applied.len())
         .max()
         .unwrap_or(0)

@@ -2,7 +2,6 @@
 //! f′(z), number for number. Signs of zeros are not promised of derivatives.
 
 use pullback_compiler::What;
-use pullback_compiler::lower::Precision;
 
 use super::{label, machines, numbers, run_twice};
 
@@ -27,10 +26,6 @@ fn symmetric(functions: &[&str], domain: &str, turn: &[f64], turned: &[f64]) {
     };
     let mut wrong = Vec::new();
     for machine in &machines() {
-        // complex functions of pairs take a shader compiler long: their values are held in `main`
-        if complex && machine.precision() == Some(Precision::Extended) {
-            continue;
-        }
         for name in functions {
             let source = format!("f({domain}) = {name}({})\n", &domain[..1]);
             let (here, there) = run_twice(machine, &source, what, &points, &images);

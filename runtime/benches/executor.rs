@@ -1,0 +1,206 @@
+//! Times of the gallery's pictures on the processor, beside the software adapter's for the same pictures in the same run,
+//! with the memory that each core needs and how much the pictures differ.
+//!
+//! `cargo bench -p pullback-runtime --bench executor -- [--size N] [--samples N] [--only NAME] [--alone]`
+//!
+//! `--alone` leaves the adapter out.
+
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+use pullback_compiler::lower::Precision;
+use pullback_compiler::scene::Space;
+use pullback_compiler::{Picture, Program, SceneModule, SettingValue, compile};
+use pullback_runtime::executor::{Arithmetic, Painter};
+use pullback_runtime::{AdapterChoice, Frame, Gpu, Pipeline, Renderer, Size, View, fill_in_scale};
+
+struct Options {
+    side: u32,
+    samples: u32,
+    only: Option<String>,
+    alone: bool,
+}
+
+impl Options {
+    fn read() -> Result<Self, String> {
+        let mut options = Self {
+            side: 512,
+            samples: 1,
+            only: None,
+            alone: false,
+        };
+        let mut arguments = std::env::args().skip(1);
+        while let Some(argument) = arguments.next() {
+            let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
+            let number = |text: String| {
+                text.parse::<u32>()
+                    .map_err(|_| format!("{text} is no number"))
+            };
+            match argument.as_str() {
+                "--size" => options.side = number(value()?)?,
+                "--samples" => options.samples = number(value()?)?,
+                "--only" => options.only = Some(value()?),
+                "--alone" => options.alone = true,
+                // from cargo
+                "--bench" => {}
+                other => return Err(format!("unknown argument {other}")),
+            }
+        }
+        Ok(options)
+    }
+}
+
+fn main() -> ExitCode {
+    match Options::read().and_then(|options| run(&options)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(options: &Options) -> Result<(), String> {
+    let gpu = (!options.alone)
+        .then(|| Gpu::open(&AdapterChoice::Software).map_err(|e| e.to_string()))
+        .transpose()?;
+    if let Some(gpu) = &gpu {
+        println!("adapter: {}", gpu.adapter());
+    }
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    println!(
+        "{0}x{0}, {1} samples a pixel, {cores} cores\n",
+        options.side,
+        options.samples * options.samples
+    );
+    println!(
+        "| scene | reference | ieee32 | adapter | KiB a core | pixels off by more than 2 of 255 |"
+    );
+    println!("| --- | --- | --- | --- | --- | --- |");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/gallery");
+    let entries = std::fs::read_dir(&folder).map_err(|e| e.to_string())?;
+    let mut files: Vec<_> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
+    files.sort();
+    for file in files
+        .iter()
+        .filter(|f| f.extension().is_some_and(|e| e == "pull"))
+    {
+        let name = file.file_stem().unwrap_or_default().to_string_lossy();
+        if options
+            .only
+            .as_ref()
+            .is_some_and(|only| !name.contains(only.as_str()))
+        {
+            continue;
+        }
+        let text = std::fs::read_to_string(file).map_err(|e| e.to_string())?;
+        let program = compile(&text).program.ok_or(format!("{name} has errors"))?;
+        println!("| {name} {} |", row(&program, options, gpu.as_ref())?);
+    }
+    Ok(())
+}
+
+fn row(program: &Program, options: &Options, gpu: Option<&Gpu>) -> Result<String, String> {
+    let picture = &program.pictures()[0];
+    let side = options.side;
+    let size = Size {
+        width: side,
+        height: side,
+    };
+    let params: Vec<f64> = program.params().iter().map(|p| p.default).collect();
+    let view = view(picture);
+    let mut settings = picture.settings.clone();
+    fill_in_scale(&mut settings, picture, &view, size, &params, 0.0);
+    let frame = Frame {
+        view,
+        params: &params,
+        settings: &[],
+        size,
+        samples: options.samples,
+        time: 0.0,
+        pipeline: Pipeline::Compute,
+    };
+    let scene = |precision| {
+        program
+            .scene_module(0, precision)
+            .map_err(|e| format!("{e:?}"))
+    };
+    let (double, single) = (scene(Precision::Double)?, scene(Precision::Accurate)?);
+    let reference = paint(&double, Arithmetic::Reference, &frame, &settings)?;
+    let ieee = paint(&single, Arithmetic::Ieee32, &frame, &settings)?;
+    let adapter = match gpu {
+        Some(gpu) => {
+            let bytes = single.pack_settings(&settings);
+            let frame = Frame {
+                settings: &bytes,
+                ..frame
+            };
+            let mut renderer = Renderer::new(gpu, &single).map_err(|e| e.to_string())?;
+            let mut pixels = Vec::new();
+            // the first run compiles
+            renderer
+                .render(&frame, &mut pixels)
+                .map_err(|e| e.to_string())?;
+            pixels.clear();
+            let start = Instant::now();
+            renderer
+                .render(&frame, &mut pixels)
+                .map_err(|e| e.to_string())?;
+            Some((start.elapsed().as_secs_f64(), pixels))
+        }
+        None => None,
+    };
+    let off = adapter.as_ref().map_or(String::new(), |(_, pixels)| {
+        format!(
+            "{} / {}",
+            different(&reference.1, pixels),
+            different(&ieee.1, pixels)
+        )
+    });
+    Ok(format!(
+        "| {:.2} s | {:.2} s | {} | {} | {off}",
+        reference.0,
+        ieee.0,
+        adapter.map_or(String::new(), |(seconds, _)| format!("{seconds:.2} s")),
+        reference.2 / 1024,
+    ))
+}
+
+fn paint(
+    scene: &SceneModule,
+    arithmetic: Arithmetic,
+    frame: &Frame,
+    settings: &[SettingValue],
+) -> Result<(f64, Vec<u8>, usize), String> {
+    let painter = Painter::new(scene, arithmetic, Pipeline::Compute).map_err(|e| e.to_string())?;
+    let mut pixels = Vec::new();
+    let start = Instant::now();
+    let never = AtomicBool::new(false);
+    let drawn = painter.render(frame, settings, &never, &mut pixels);
+    drawn.map_err(|e| e.to_string())?;
+    Ok((start.elapsed().as_secs_f64(), pixels, painter.bytes()))
+}
+
+/// Pixels of which a channel differs by more than 2.
+fn different(a: &[u8], b: &[u8]) -> usize {
+    let pixels = a.chunks_exact(4).zip(b.chunks_exact(4));
+    pixels
+        .filter(|(a, b)| a.iter().zip(*b).any(|(x, y)| x.abs_diff(*y) > 2))
+        .count()
+}
+
+fn view(picture: &Picture) -> View {
+    if picture.scene.space == Space::Space {
+        return View {
+            center: [0.0, 0.0],
+            height: 2.0,
+        };
+    }
+    let center = picture.setting("center").unwrap_or_default();
+    View {
+        center: [center.x, center.y],
+        height: picture.setting("height").map_or(2.0, |height| height.x),
+    }
+}

@@ -1,0 +1,193 @@
+//! Lanes: one word of every lane of a group, side by side, eight to a chunk.
+
+/// Lanes of a chunk: what is skipped as a whole where none of them is active.
+pub(super) const WIDTH: usize = 8;
+/// Chunks of a group.
+pub(super) const CHUNKS: usize = 8;
+/// Lanes of a group, which run the same instruction together.
+pub(super) const LANES: usize = WIDTH * CHUNKS;
+
+/// A truth value as a word: all bits are the same, so that it serves as a mask.
+pub(super) const TRUE: u64 = u64::MAX;
+
+/// A word of each of eight lanes. Numbers are held by their bits, those of 32 bits in the lower half.
+#[repr(align(64))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Chunk(pub [u64; WIDTH]);
+
+impl Chunk {
+    pub const ZERO: Self = Self([0; WIDTH]);
+
+    pub fn splat(word: u64) -> Self {
+        Self([word; WIDTH])
+    }
+
+    pub fn map(self, f: impl Fn(u64) -> u64) -> Self {
+        Self(std::array::from_fn(|i| f(self.0[i])))
+    }
+
+    pub fn zip(self, other: Self, f: impl Fn(u64, u64) -> u64) -> Self {
+        Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
+    }
+
+    pub fn and(self, other: Self) -> Self {
+        self.zip(other, |a, b| a & b)
+    }
+
+    pub fn or(self, other: Self) -> Self {
+        self.zip(other, |a, b| a | b)
+    }
+
+    pub fn and_not(self, other: Self) -> Self {
+        self.zip(other, |a, b| a & !b)
+    }
+
+    /// `self` where the mask is set, else `other`.
+    pub fn blend(self, other: Self, mask: Self) -> Self {
+        Self(std::array::from_fn(|i| {
+            other.0[i] ^ ((other.0[i] ^ self.0[i]) & mask.0[i])
+        }))
+    }
+
+    pub fn any(self) -> bool {
+        self.0.iter().fold(0, |all, &word| all | word) != 0
+    }
+}
+
+/// Where the words of a value are in memory: of all lanes one after another, or one chunk for all of them where every
+/// lane has the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Slot {
+    at: u32,
+    step: u32,
+}
+
+impl Slot {
+    /// The k-th uniform.
+    pub fn uniform(k: u32) -> Self {
+        Self { at: k, step: 0 }
+    }
+
+    /// The k-th register.
+    pub fn register(k: u32) -> Self {
+        Self { at: k, step: 1 }
+    }
+
+    pub fn is_uniform(self) -> bool {
+        self.step == 0
+    }
+
+    /// Which uniform or register it is, until it is placed.
+    pub fn number(self) -> u32 {
+        self.at
+    }
+
+    /// The place in a memory that begins with so many uniforms.
+    pub fn placed(self, uniforms: u32) -> Self {
+        if self.is_uniform() {
+            return self;
+        }
+        let at = uniforms + self.at * CHUNKS as u32;
+        Self { at, step: 1 }
+    }
+
+    /// The next of a row of slots that are of one kind, `k` further; for those that are placed.
+    pub fn further(self, k: usize) -> Self {
+        let distance = if self.is_uniform() { 1 } else { CHUNKS };
+        let at = self.at + (k * distance) as u32;
+        Self { at, ..self }
+    }
+
+    /// The chunk's place in memory.
+    #[inline(always)]
+    pub fn chunk(self, c: u32) -> usize {
+        (self.at + self.step * c) as usize
+    }
+}
+
+/// Which lanes run.
+#[derive(Clone, Debug)]
+pub(super) struct Mask {
+    /// All bits of a lane's word are set where it runs.
+    pub lanes: [Chunk; CHUNKS],
+    /// The chunks with a lane that runs.
+    list: [u32; CHUNKS],
+    count: usize,
+}
+
+impl Mask {
+    pub fn none() -> Self {
+        Self {
+            lanes: [Chunk::ZERO; CHUNKS],
+            list: [0; CHUNKS],
+            count: 0,
+        }
+    }
+
+    /// The first `count` lanes.
+    pub fn first(count: usize) -> Self {
+        let mut mask = Self::none();
+        mask.change(|c, _| {
+            Chunk(std::array::from_fn(|i| {
+                if c * WIDTH + i < count { TRUE } else { 0 }
+            }))
+        });
+        mask
+    }
+
+    /// Gives each chunk another mask; tells whether any lane runs.
+    #[inline]
+    pub fn change(&mut self, mut chunk: impl FnMut(usize, Chunk) -> Chunk) -> bool {
+        self.count = 0;
+        for c in 0..CHUNKS {
+            self.lanes[c] = chunk(c, self.lanes[c]);
+            self.list[self.count] = c as u32;
+            self.count += usize::from(self.lanes[c].any());
+        }
+        self.count > 0
+    }
+
+    /// No lane runs.
+    pub fn clear(&mut self) {
+        self.lanes = [Chunk::ZERO; CHUNKS];
+        self.count = 0;
+    }
+
+    /// The chunks with a lane that runs.
+    #[inline(always)]
+    pub fn chunks(&self) -> &[u32] {
+        &self.list[..self.count]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn masks_list_their_chunks() {
+        let mut mask = Mask::first(11);
+        assert_eq!(mask.chunks(), [0, 1]);
+        assert!(mask.change(|c, lanes| if c == 0 { Chunk::ZERO } else { lanes }));
+        assert_eq!(mask.chunks(), [1]);
+        mask.clear();
+        assert!(mask.chunks().is_empty());
+        assert_eq!(Mask::first(LANES).chunks().len(), CHUNKS);
+    }
+
+    #[test]
+    fn slots_find_their_chunks() {
+        let uniform = Slot::uniform(3).placed(10);
+        assert_eq!((uniform.chunk(5), uniform.further(2).chunk(1)), (3, 5));
+        let register = Slot::register(2).placed(10);
+        assert_eq!(register.chunk(1), 10 + 2 * CHUNKS + 1);
+        assert_eq!(register.further(1).chunk(0), 10 + 3 * CHUNKS);
+    }
+
+    #[test]
+    fn blends() {
+        let mask = Chunk(std::array::from_fn(|i| if i < 3 { TRUE } else { 0 }));
+        let blended = Chunk::splat(7).blend(Chunk::splat(9), mask);
+        assert_eq!(blended.0, [7, 7, 7, 9, 9, 9, 9, 9]);
+    }
+}
