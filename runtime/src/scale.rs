@@ -17,8 +17,21 @@ const SHARES: (f64, f64) = (0.6, 0.95);
 /// Level lines from 0 to the scale, as the template draws them.
 const LINES: f64 = 4.0;
 
-/// Settings of scenes of the plane that are automatic where they are 0, each with how many lines there are to the scale.
-const AUTOMATIC: [(&str, f64); 2] = [("color_scale", 1.0), ("period", LINES)];
+/// The share of the view whose values stay between the middle stripes, and how many those are to each side.
+const STRIPES: (f64, f64) = (0.9, 4.0);
+
+/// Settings of scenes of the plane that are automatic where they are 0, and what they become from sorted sizes of values.
+type Rule = fn(&[f64]) -> f64;
+const AUTOMATIC: [(&str, Rule); 2] = [("color_scale", color_scale), ("period", period)];
+
+fn color_scale(sizes: &[f64]) -> f64 {
+    let scale = share(sizes, SHARES.0).max(share(sizes, SHARES.1) / 4.0);
+    LINES * round_number(scale / LINES)
+}
+
+fn period(sizes: &[f64]) -> f64 {
+    round_number(share(sizes, STRIPES.0) / STRIPES.1)
+}
 
 /// Sets an automatic `color_scale` or `period` from the values that the formula takes in what is seen, in f64, such that level
 /// lines and edges of stripes stand at round values.
@@ -32,10 +45,10 @@ pub fn fill_in_scale(
 ) {
     let points = points(settings, picture, view, size);
     let automatic = settings.iter_mut().find_map(|setting| {
-        let (_, parts) = AUTOMATIC.into_iter().find(|a| a.0 == setting.spec.name)?;
-        (setting.value[0] == 0.0).then_some((setting, parts))
+        let (_, rule) = AUTOMATIC.into_iter().find(|a| a.0 == setting.spec.name)?;
+        (setting.value[0] == 0.0).then_some((setting, rule))
     });
-    let Some((setting, parts)) = automatic.filter(|_| !points.is_empty()) else {
+    let Some((setting, rule)) = automatic.filter(|_| !points.is_empty()) else {
         return;
     };
     let Ok(mut evaluator) = Evaluator::new(&picture.formula, What::Value) else {
@@ -53,8 +66,7 @@ pub fn fill_in_scale(
     }
     sizes.retain(|s| *s > 0.0);
     sizes.sort_by(f64::total_cmp);
-    let scale = share(&sizes, SHARES.0).max(share(&sizes, SHARES.1) / 4.0);
-    setting.value = DVec3::splat(LINES * round_number(scale / LINES) / parts);
+    setting.value = DVec3::splat(rule(&sizes));
 }
 
 /// Where values are taken: a grid of the view, or of the box of a scene of space; complex scenes need no scale.

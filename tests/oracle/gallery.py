@@ -331,6 +331,10 @@ def cells(x, y):
     return noise.cellular(x, y)
 
 
+def charges(x, y):
+    return 2 / hypot(x, y) - 1 / hypot(x - 2, y) - 1 / hypot(x + 2, y)
+
+
 # Points that some formulas are judged at: far away the lattice of the noise is finer than binary32; next to the planes
 # that the sponge is mirrored by, binary32 cannot tell which of two coordinates is the greater after a fold.
 JUDGED = {name: lambda c: abs(c) <= 100 for name in ("landscape", "cells", "pebble")}
@@ -352,6 +356,9 @@ PLANE = {
     "spiral": (lambda x, y: sin(3 * atan2(y, x) + 4 * log(hypot(x, y))), 2, [(0, 0), (-1, 0), (-2, 1e-6), (-2, -1e-6), (1, 0)]),
     "peaks": (peaks, 3, [(0, 0), (1, -1), (-1, 0), (0.2282789, -1.6255349), (-0.0093176, 1.5813679)]),
     "himmelblau": (lambda x, y: log1p((x**2 + y - 11) ** 2 + (x + y**2 - 7) ** 2), 6, [(3, 2), (-2.805118, 3.131312), (-3.77931, -3.283186), (3.584428, -1.848126)]),
+    "charges": (charges, 3, [(0, 0), (2, 0), (-2, 0), (1, 0), (0, 1)]),
+    "zone-plate": (lambda x, y: x**2 + y**2, 6, [(0, 0), (1, 1), (0.2, 0.4)]),
+    "folium": (lambda x, y: (x**3 + y**3 - 3 * x * y) * (x**2 + y**2 - 3) ** 2, 2.5, [(0, 0), (1.5, 1.5), (1.7320508, 0), (-1, 1.4142135)]),
     "norms": (norms, 2, [(1.5, 0), (-1.5, 0), (0, 0), (0.75, 0), (-1, 1), (-1, 0.5)]),
 }
 
@@ -375,7 +382,16 @@ def julia(z):
     return z
 
 
+def halley(z):
+    for _ in range(2):
+        z = z * (2 * z**5 + 3) / (3 * z**5 + 2)
+    return z
+
+
 HOLOMORPHIC = {
+    "confocal": (lambda z: 2 * sin(z), 3, [0, 1.5707964, -1.5707964, 3.1415927, 1j]),
+    "lambert": (lambda z: z * exp(z), 3, [0, -1, -2 + 3.1415927j, 0.5671433]),
+    "doyle-mcmullen": (halley, 1.5, [0, 1, 0.309017 + 0.95105652j, -0.9221080, 0.746]),
     "newton-basins": (newton_basins, 2, [1, -0.5 + 0.8660254j, -1, 0.5 + 0.3j]),
     "julia-set": (julia, 1.5, [0, 1, 1.525 - 0.1j, -0.525 + 0.1j]),
     "rational": (lambda z: (z**2 - 1) / (z + mp.j), 3, [1, -1, -1j]),

@@ -14,4 +14,6 @@ pub mod formatting;
 pub mod holds;
 pub mod loops;
 pub mod mutate;
+#[cfg(feature = "gpu")]
+pub mod pictures;
 pub mod units;

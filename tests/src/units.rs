@@ -19,7 +19,16 @@ use naga::{
 };
 
 /// Stubs that the compiler fills in, with what is in the components of their results.
-pub const FIELD_STUBS: [&str; 5] = ["field", "field_grad", "field_ray", "map", "map_jet"];
+pub const FIELD_STUBS: [&str; 8] = [
+    "field",
+    "field_grad",
+    "field_jet2",
+    "field_ray",
+    "map",
+    "map_jet",
+    "chart_jet",
+    "chart_jet_inverse",
+];
 
 /// Where a value comes from: a call in this function, or somewhere else (0).
 type Origin = usize;
@@ -207,7 +216,7 @@ impl Analysis<'_> {
                     self.places
                         .insert(Place::Member(name.clone(), k), Units::from([LENGTH]));
                 }
-                if name == "Jet" {
+                if name == "Jet" || name == "Jet2" {
                     let unit = if k == 0 {
                         Unit::of_value(0)
                     } else {

@@ -154,12 +154,18 @@ fn demands_have_the_contract_s_signatures() {
                 "fn field_grad(p: vec3f) -> vec4f",
             ],
         ),
+        ("field_jet2", vec!["fn field_jet2(offset: vec2f) -> Jet2"]),
         (
             "field_ray",
             vec!["fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f"],
         ),
         ("map", vec!["fn map(offset: vec2f) -> vec2f"]),
         ("map_jet", vec!["fn map_jet(offset: vec2f) -> Jet"]),
+        ("chart_jet", vec!["fn chart_jet(z: vec2f) -> Jet"]),
+        (
+            "chart_jet_inverse",
+            vec!["fn chart_jet_inverse(w: vec2f) -> Jet"],
+        ),
     ]);
     for scene in scenes() {
         let mut demands = 0;
@@ -171,7 +177,7 @@ fn demands_have_the_contract_s_signatures() {
             demands += 1;
             let declared = line.split('{').next().unwrap_or_default().trim();
             assert!(forms.contains(&declared), "{}: {declared}", scene.name);
-            let space = if name.starts_with("map") {
+            let space = if name.starts_with("map") || name.starts_with("chart") {
                 Space::Complex
             } else if declared.contains("(offset: vec2f)") {
                 Space::Plane

@@ -102,7 +102,8 @@ fn filtered_colour(u: f32, spread: f32) -> vec3f {
     if spread > UNRESOLVED * f32(settings.count) || abs(u) > 4194304.0 {
         return mean_colour();
     }
-    if spread <= 1e-30 {
+    // below the last digit of u there is no telling where in the sample an edge is
+    if spread <= 6e-8 * max(abs(u), 1.0) {
         return stripe_colour(i32(floor(u)));
     }
     let first = i32(ceil(u - REACH * spread));

@@ -138,11 +138,17 @@ fn axis_coverage(at: Coordinates, crowd: f32) -> f32 {
         select(0.0, line_coverage(away.x, width, sample_window()), known.x),
         select(0.0, line_coverage(away.y, width, sample_window()), known.y),
     );
-    return covered * (1.0 - smoothstep(0.04, 0.2, crowd));
+    return covered * (1.0 - smoothstep(0.02, 0.1, crowd));
 }
 
 fn lines_of(at: f32, rate: f32, octave: Octave) -> f32 {
     return octave_lines(0.0, at, rate, octave, f32(settings.divisions), settings.octaves, settings.line_width);
+}
+
+// Within a pixel of a zero or pole polar coordinates are not straight across a line's width, and lines without end crowd.
+fn polar_lines(polar: Polar) -> f32 {
+    let nearness = max(0.6931471805599453 * polar.octave_rate, 6.283185307179586 * polar.turn_rate);
+    return select(1.0, 1.0 - smoothstep(0.6, 1.5, nearness), settings.shape == 1u);
 }
 
 fn colour_of(jet: Jet, pixel: vec2f) -> vec3f {
@@ -162,8 +168,9 @@ fn colour_of(jet: Jet, pixel: vec2f) -> vec3f {
     var colour = mix(settings.paper, wheel, settings.phase);
     colour = mix(colour, blend_extremes(colour, polar.octaves, polar.octave_rate, settings.fade_octaves), settings.light);
     colour *= 1.0 - settings.checker * (0.3 - 0.3 * cells(at));
-    colour = mix(colour, settings.ink, settings.first_lines * lines_of(at.place.x, at.rates.x, at.first));
-    colour = mix(colour, settings.ink, settings.second_lines * lines_of(at.place.y, at.rates.y, at.second));
+    let lines = polar_lines(polar);
+    colour = mix(colour, settings.ink, lines * settings.first_lines * lines_of(at.place.x, at.rates.x, at.first));
+    colour = mix(colour, settings.ink, lines * settings.second_lines * lines_of(at.place.y, at.rates.y, at.second));
     return mix(colour, settings.ink, settings.axes * axis_coverage(at, polar.turn_rate));
 }
 

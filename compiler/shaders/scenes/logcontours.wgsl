@@ -83,15 +83,16 @@ fn far(octaves: f32) -> f32 {
 }
 
 // Both signs are mixed by their shares of the sample where f changes its sign: at a zero, and at a pole, f is as far from
-// it as |f| / |∇f|.
+// it as |f| / |∇f|. The mean of |f| over a sample with a zero in its middle is a quarter of the change across it.
 fn sign_colour(value: f32, octaves: f32, rate: f32) -> vec3f {
-    let pixels = 1.0 / max(rate * 0.6931471805599453, 1e-20);
-    let share = clamp(pixels / sample_window(), 0.0, 0.5) + 0.5;
-    let own = palette_colour(sign(value), far(octaves));
+    let samples = sample_window() * rate * 0.6931471805599453;
+    let share = clamp(1.0 / max(samples, 1e-20), 0.0, 0.5) + 0.5;
+    let depth = far(octaves + log2(1.0 + 0.25 * samples));
+    let own = palette_colour(sign(value), depth);
     if share > 0.999 {
         return own;
     }
-    return mix(palette_colour(-sign(value), far(octaves)), own, share);
+    return mix(palette_colour(-sign(value), depth), own, share);
 }
 
 fn colour_of(jet: vec3f, pixel: vec2f) -> vec3f {
@@ -112,7 +113,9 @@ fn colour_of(jet: vec3f, pixel: vec2f) -> vec3f {
     }
     let base = f32(settings.divisions);
     let octave = octave_of_rate(rate, settings.spacing, base);
-    let line = octave_lines(parts.x, parts.y, rate, octave, base, settings.octaves, settings.line_width);
+    // within a pixel of a zero or pole log |f| is not straight across a line's width, and lines without end crowd
+    let known = 1.0 - smoothstep(0.6, 1.5, rate * 0.6931471805599453);
+    let line = known * octave_lines(parts.x, parts.y, rate, octave, base, settings.octaves, settings.line_width);
     return mix(sign_colour(value, parts.x + parts.y, rate), settings.ink, settings.line_opacity * line);
 }
 

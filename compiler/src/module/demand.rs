@@ -2,6 +2,7 @@
 
 use naga::{Function, GlobalVariable, Handle};
 
+use super::reciprocal::reciprocal;
 use super::substitute::substitute;
 use crate::derive::{ComplexVariable, forward, gradient, jet};
 use crate::formula::Formula;
@@ -11,7 +12,16 @@ use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, P
 use crate::stable::finish;
 
 /// Names of the stubs that are filled from a formula.
-pub const DEMANDS: [&str; 5] = ["field", "field_grad", "field_ray", "map", "map_jet"];
+pub const DEMANDS: [&str; 8] = [
+    "field",
+    "field_grad",
+    "field_jet2",
+    "field_ray",
+    "map",
+    "map_jet",
+    "chart_jet",
+    "chart_jet_inverse",
+];
 
 /// Fills the stubs of a scene from one formula.
 #[derive(Debug)]
@@ -41,9 +51,22 @@ impl Provider for Demand<'_> {
         let answer = match name {
             "field" => self.value(),
             "field_grad" => self.gradient(stub)?,
+            "field_jet2" => self.second_jet(stub)?,
             "field_ray" => self.ray(types)?,
             "map" => self.map(),
-            "map_jet" => self.jet(stub, types)?,
+            "map_jet" => {
+                let (graph, roots) = self.graph();
+                self.jet(graph, &roots, self.point_inputs(), stub, types)?
+            }
+            "chart_jet" => {
+                let (graph, roots) = self.graph();
+                self.jet(graph, &roots, self.chart_inputs(), stub, types)?
+            }
+            "chart_jet_inverse" => {
+                let formula = self.formula.stabilised();
+                let (graph, roots) = reciprocal(&formula.graph, &formula.value, &formula.scalars());
+                self.jet(graph, &roots, vec![Argument::Whole(0)], stub, types)?
+            }
             _ => return Ok(None),
         };
         let interface = Interface {
@@ -151,6 +174,32 @@ impl Demand<'_> {
         })
     }
 
+    /// Value, first and second derivatives of a real function of the plane, in the order of `Jet2`: f, ∂f/∂x, ∂f/∂y,
+    /// ∂²f/∂x², ∂²f/∂x∂y, ∂²f/∂y². Derivatives by coordinates that the formula does not take are zero.
+    fn second_jet(&self, stub: &Function) -> Result<Answer, LowerError> {
+        let (mut graph, roots) = self.graph();
+        let leaves = self.leaves(&mut graph);
+        let result = stub.result.as_ref().ok_or(LowerError::NoForm("a jet"))?.ty;
+        let derived = gradient(&mut graph, roots[0], &leaves).map_err(LowerError::NoDerivative)?;
+        let (zero, one) = (graph.real(0.0), graph.real(1.0));
+        let mut roots = vec![derived.value, zero, zero, zero, zero, zero];
+        for (k, &partial) in derived.partials.iter().enumerate().take(2) {
+            roots[1 + k] = partial;
+            for (j, &leaf) in leaves.iter().enumerate().skip(k).take(2 - k) {
+                let second = forward(&mut graph, &[partial], &[(leaf, one)])
+                    .map_err(LowerError::NoDerivative)?;
+                roots[3 + k + j] = second[0].unwrap_or(zero);
+            }
+        }
+        let parts = (0..roots.len()).map(Output::Node).collect();
+        Ok(Answer {
+            graph,
+            roots,
+            inputs: self.point_inputs(),
+            output: Output::Compose(result, parts),
+        })
+    }
+
     /// Dimension of the space that real formulas live in.
     fn dimension(&self) -> usize {
         if self.formula.scalars().len() == 3 {
@@ -201,16 +250,30 @@ impl Demand<'_> {
         }
     }
 
-    fn jet(&self, stub: &Function, types: NagaTypes) -> Result<Answer, LowerError> {
-        let (mut graph, roots) = self.graph();
-        let leaves = self.leaves(&mut graph);
-        let variable = match *leaves.as_slice() {
-            [z] => ComplexVariable::Whole(z),
-            [x, y] => ComplexVariable::Parts(x, y),
-            _ => {
-                let z = Formula::leaf(&mut graph, 0, Ty::Complex);
-                ComplexVariable::Whole(z)
-            }
+    /// The stub's one argument is a complex number of the world as it is: a complex input is all of it, real inputs are
+    /// its parts.
+    fn chart_inputs(&self) -> Vec<Argument> {
+        match self.formula.scalars().as_slice() {
+            [Ty::Complex] => vec![Argument::Whole(0)],
+            _ => vec![Argument::Component(0, 0), Argument::Component(0, 1)],
+        }
+    }
+
+    /// Value and both Wirtinger derivatives by the complex variable that `inputs` are: one complex input, or its parts.
+    fn jet(
+        &self,
+        mut graph: Graph,
+        roots: &[Id],
+        inputs: Vec<Argument>,
+        stub: &Function,
+        types: NagaTypes,
+    ) -> Result<Answer, LowerError> {
+        let variable = match (inputs.as_slice(), self.formula.scalars().as_slice()) {
+            ([_, _], [x, y]) => ComplexVariable::Parts(
+                Formula::leaf(&mut graph, 0, *x),
+                Formula::leaf(&mut graph, 1, *y),
+            ),
+            _ => ComplexVariable::Whole(Formula::leaf(&mut graph, 0, Ty::Complex)),
         };
         let result = stub.result.as_ref().ok_or(LowerError::NoForm("a jet"))?.ty;
         let jet = jet(&mut graph, roots[0], variable).map_err(LowerError::NoDerivative)?;
@@ -226,7 +289,7 @@ impl Demand<'_> {
         Ok(Answer {
             graph,
             roots,
-            inputs: self.point_inputs(),
+            inputs,
             output,
         })
     }

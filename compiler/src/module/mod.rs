@@ -2,6 +2,7 @@
 
 mod demand;
 mod evaluation;
+mod reciprocal;
 mod rows;
 mod scene;
 mod substitute;

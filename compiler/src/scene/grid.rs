@@ -22,7 +22,7 @@ pub const SCENE: Scene = Scene {
         ),
         SettingSpec::real(
             "spacing",
-            14.0,
+            16.0,
             (3.0, 1000.0),
             "pixels between the finest lines, where they fade in",
         ),
@@ -34,7 +34,7 @@ pub const SCENE: Scene = Scene {
         ),
         SettingSpec::integer(
             "octaves",
-            3.0,
+            2.0,
             (2.0, 8.0),
             "over how many of them lines grow to full strength",
         ),
@@ -45,22 +45,22 @@ pub const SCENE: Scene = Scene {
             (0.0, 1.0),
             "strength of the shading of zeros (black) and poles (white)",
         ),
-        SettingSpec::real("checker", 0.3, (0.0, 1.0), "strength of the cells"),
+        SettingSpec::real("checker", 0.4, (0.0, 1.0), "strength of the cells"),
         SettingSpec::real(
             "first_lines",
-            0.5,
+            0.7,
             (0.0, 1.0),
             "strength of the lines of constant re f or |f|",
         ),
         SettingSpec::real(
             "second_lines",
-            0.5,
+            0.7,
             (0.0, 1.0),
             "strength of the lines of constant im f or arg f",
         ),
         SettingSpec::real(
             "axes",
-            0.85,
+            0.9,
             (0.0, 1.0),
             "strength of the lines re f = 0 and im f = 0, or |f| = 1 and arg f = 0",
         ),
@@ -72,7 +72,7 @@ pub const SCENE: Scene = Scene {
         ),
         SettingSpec::real(
             "fade_octaves",
-            6.0,
+            4.0,
             (POSITIVE, ANY),
             "octaves from |f| = 1 to where the shading is half black or white",
         ),

@@ -16,7 +16,7 @@ pub const SCENE: Scene = Scene {
         SettingSpec::height(8.0),
         SettingSpec::real(
             "spacing",
-            12.0,
+            10.0,
             (3.0, 1000.0),
             "pixels between the finest lines, where they fade in",
         ),
@@ -28,12 +28,12 @@ pub const SCENE: Scene = Scene {
         ),
         SettingSpec::integer(
             "octaves",
-            4.0,
+            3.0,
             (2.0, 8.0),
             "over how many of them lines grow to full strength",
         ),
         SettingSpec::real("line_width", 1.2, (0.0, 20.0), "pixels, of all lines"),
-        SettingSpec::real("line_opacity", 0.7, (0.0, 1.0), "of the strongest lines"),
+        SettingSpec::real("line_opacity", 0.75, (0.0, 1.0), "of the strongest lines"),
         SettingSpec::real(
             "modulus",
             1.0,

@@ -6,12 +6,14 @@ mod cutaway;
 mod domain;
 mod glow;
 mod grid;
+mod implicit;
 mod levels;
 mod logcontours;
 mod nested;
 mod setting;
 mod slices;
 mod space;
+mod sphere;
 mod surface;
 mod volume;
 mod volumecut;
@@ -54,13 +56,15 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 13] = [
+    static SCENES: [Scene; 15] = [
         levels::SCENE,
         logcontours::SCENE,
         bands::SCENE,
+        implicit::SCENE,
         domain::SCENE,
         checker::SCENE,
         grid::SCENE,
+        sphere::SCENE,
         surface::SCENE,
         slices::SCENE,
         nested::SCENE,

@@ -64,11 +64,21 @@ impl fmt::Display for Sight {
     }
 }
 
+/// Where the lines of a pattern are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Lines {
+    /// At the multiples of a value.
+    Every(f64),
+    /// At zero.
+    AtZero,
+    /// As fine as fits on the screen: there is always one in sight.
+    Everywhere,
+}
+
 /// A pattern over the range of a function: where its lines are, and how its colours change.
 #[derive(Clone, Copy, Debug)]
 struct Pattern {
-    /// From line to line.
-    period: f64,
+    lines: Lines,
     /// Change of the value over which a colour component changes by 1, at the least.
     colour: f64,
 }
@@ -78,30 +88,53 @@ struct Pattern {
 pub struct Eye {
     space: Space,
     value: Pattern,
+    /// Whether lines and colours of a real function are of log |f|.
+    logarithmic: bool,
 }
 
 impl Eye {
     pub fn new(scenery: &Scenery) -> Self {
         let space = scenery.program.pictures()[scenery.picture].scene.space;
         let setting = |name: &str, missing: f64| number(scenery.settings, name).unwrap_or(missing);
+        let has = |name: &str| number(scenery.settings, name).is_some();
+        // scenes whose lines are as fine as fits say how far apart they may be, in octaves
+        let adaptive = has("octaves");
         let value = match space {
             Space::Complex => Pattern {
-                // rings are at equal distances of log |f|
-                period: setting("ring_octaves", 1.0) * std::f64::consts::LN_2,
+                lines: if adaptive || has("unit") {
+                    Lines::Everywhere
+                } else {
+                    // rings are at equal distances of log |f|
+                    Lines::Every(setting("ring_octaves", 1.0) * std::f64::consts::LN_2)
+                },
                 colour: std::f64::consts::TAU / HUE_SLOPE,
             },
+            Space::Plane if adaptive => Pattern {
+                lines: Lines::Everywhere,
+                colour: setting("fade_octaves", 1.0) * std::f64::consts::LN_2,
+            },
+            Space::Plane if has("period") => Pattern {
+                lines: Lines::Every(positive(setting("period", 0.0)).unwrap_or(1.0)),
+                colour: f64::INFINITY,
+            },
+            Space::Plane if !has("color_scale") => Pattern {
+                lines: Lines::AtZero,
+                colour: f64::INFINITY,
+            },
             Space::Plane | Space::Space => {
-                let scale = Some(setting("color_scale", 1.0))
-                    .filter(|s| *s > 0.0)
-                    .unwrap_or(1.0);
-                let spacing = setting("spacing", 0.0);
+                let scale = positive(setting("color_scale", 1.0)).unwrap_or(1.0);
+                let spacing = positive(setting("spacing", 0.0));
                 Pattern {
-                    period: if spacing > 0.0 { spacing } else { 0.25 * scale },
+                    lines: Lines::Every(spacing.unwrap_or(0.25 * scale)),
                     colour: scale,
                 }
             }
         };
-        Self { space, value }
+        Self {
+            space,
+            value,
+            logarithmic: adaptive,
+        }
     }
 
     /// What is seen of the difference between the true value with its derivatives and that of a tier.
@@ -129,7 +162,13 @@ impl Eye {
             };
         }
         let rate = length(&truth[1..]) * sample.footprint;
-        self.value.seen(value, (got - value).abs(), rate)
+        let size = if self.logarithmic && value != 0.0 {
+            value.abs()
+        } else {
+            1.0
+        };
+        self.value
+            .seen(value / size, (got - value).abs() / size, rate / size)
     }
 
     /// Of a complex function.
@@ -157,12 +196,16 @@ impl Eye {
 impl Pattern {
     /// What is seen where a value that changes by `rate` from pixel to pixel has an error.
     fn seen(self, value: f64, error: f64, rate: f64) -> Sight {
+        let (period, nearest) = match self.lines {
+            Lines::Every(period) => (period, (value / period).round() * period),
+            Lines::AtZero => (f64::INFINITY, 0.0),
+            Lines::Everywhere => (f64::INFINITY, value),
+        };
         // what is finer than a pixel is drawn as its mean
-        if rate.is_nan() || rate >= self.period {
+        if rate.is_nan() || rate >= period {
             return Sight::default();
         }
         let colour = error / self.colour;
-        let nearest = (value / self.period).round() * self.period;
         let in_sight = (value - nearest).abs() <= error + IN_SIGHT * rate;
         let displacement = if in_sight && error > 0.0 {
             error / rate
@@ -205,6 +248,10 @@ fn number(settings: &[SettingValue], name: &str) -> Option<f64> {
         .map(|s| s.value.x)
 }
 
+fn positive(x: f64) -> Option<f64> {
+    Some(x).filter(|x| *x > 0.0)
+}
+
 fn single(x: f64) -> f64 {
     f64::from(x as f32)
 }
@@ -223,7 +270,7 @@ mod tests {
     use super::*;
 
     const PATTERN: Pattern = Pattern {
-        period: 1.0,
+        lines: Lines::Every(1.0),
         colour: 4.0,
     };
 
@@ -236,6 +283,17 @@ mod tests {
         let seen = PATTERN.seen(3.4, 5e-4, 1e-3);
         assert_eq!(seen.displacement, 0.0);
         assert!(!seen.is_visible());
+    }
+
+    #[test]
+    fn an_error_displaces_the_zero_line_or_lines_that_are_everywhere() {
+        let with = |lines| Pattern { lines, ..PATTERN };
+        let seen = with(Lines::AtZero).seen(1.0, 5e-4, 1e-3);
+        assert_eq!(seen.displacement, 0.0);
+        let seen = with(Lines::AtZero).seen(1e-3, 5e-4, 1e-3);
+        assert!((seen.displacement - 0.5).abs() < 1e-12);
+        let seen = with(Lines::Everywhere).seen(0.37, 5e-4, 1e-3);
+        assert!((seen.displacement - 0.5).abs() < 1e-12);
     }
 
     #[test]

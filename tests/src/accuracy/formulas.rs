@@ -48,7 +48,13 @@ macro_rules! gallery {
     };
 }
 
-const GALLERY: [(&str, &str, &str); 53] = gallery![
+const GALLERY: [(&str, &str, &str); 59] = gallery![
+    "charges",
+    "confocal",
+    "doyle-mcmullen",
+    "folium",
+    "lambert",
+    "zone-plate",
     "barth-sextic",
     "bipolar",
     "blaschke",
