@@ -39,7 +39,7 @@ impl Random {
 }
 
 /// What is inserted: every sign and word of the language, and what people write instead.
-const TOKENS: [&str; 180] = [
+const TOKENS: [&str; 182] = [
     "(",
     ")",
     "{",
