@@ -7,7 +7,7 @@ use crate::ast::{
     UnaryOp,
 };
 use crate::complaint::foreign_statement;
-use crate::paste::names::is_namespace;
+use crate::paste::names::{function_of, is_namespace};
 use crate::token::{TokenKind, kind_of_word};
 
 /// How tightly an expression holds together, loosest first.
@@ -281,6 +281,39 @@ fn leftmost(exprs: &Exprs, mut id: ExprId) -> ExprId {
     }
 }
 
+/// Whether the text of a factor may begin with a bracket.
+fn begins_bracketed(exprs: &Exprs, id: ExprId) -> bool {
+    !matches!(
+        exprs[leftmost(exprs, id)],
+        Expr::Name(_)
+            | Expr::Call { .. }
+            | Expr::Series { .. }
+            | Expr::Iterate { .. }
+            | Expr::Integral { .. }
+    )
+}
+
+/// Whether the text of an operand ends with a name that means a function in other notations, perhaps with a power: a
+/// bracket behind it would be read as its argument.
+fn ends_applied(exprs: &Exprs, mut id: ExprId) -> bool {
+    loop {
+        id = match &exprs[id] {
+            Expr::Name(name) => return function_of(&name.text).is_some(),
+            Expr::Binary {
+                op: BinaryOp::Pow,
+                lhs,
+                rhs,
+            } if matches!(exprs[*rhs], Expr::Number(_)) => *lhs,
+            Expr::Binary { rhs: last, .. }
+            | Expr::Unary {
+                op: UnaryOp::Neg | UnaryOp::Not | UnaryOp::Sqrt,
+                arg: last,
+            } => *last,
+            _ => return false,
+        }
+    }
+}
+
 fn level_of(expr: &Expr) -> Level {
     match expr {
         Expr::Where { .. } => Level::Where,
@@ -357,7 +390,13 @@ fn parts<'a>(stack: &mut Vec<Work<'a>>, tree: Tree<'a>, id: ExprId, in_bars: boo
             );
             let (left, right) = if *op == BinaryOp::ImplicitMul {
                 // `1 / 2 x` reads well, but with a warning.
-                let left = if is_division { Level::Prefix } else { left };
+                let left = if ends_applied(exprs, *lhs) && begins_bracketed(exprs, *rhs) {
+                    Level::Postfix
+                } else if is_division {
+                    Level::Prefix
+                } else {
+                    left
+                };
                 (left, Work::Factor(*rhs, in_bars))
             } else {
                 (left, at(*rhs, right))
