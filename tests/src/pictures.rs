@@ -42,7 +42,8 @@ impl Camera {
 pub struct Picture {
     /// How it was taken.
     pub camera: Camera,
-    bytes: Vec<u8>,
+    /// Linear rgb and alpha of every pixel.
+    values: Vec<f32>,
 }
 
 impl Picture {
@@ -78,42 +79,35 @@ impl Picture {
             size,
             samples: camera.samples,
             time: 0.0,
-            pipeline: Pipeline::Compute,
+            pipeline: Pipeline::Linear,
         };
         let mut bytes = Vec::new();
         Renderer::new(gpu, &scene)
             .and_then(|mut renderer| renderer.render(&frame, &mut bytes))
             .unwrap_or_else(|error| panic!("{source}: {error}"));
-        Self { camera, bytes }
-    }
-
-    /// A pixel as it is displayed, each component 0 to 255.
-    #[must_use]
-    pub fn displayed(&self, column: u32, row: u32) -> [f64; 3] {
-        let at = 4 * (row * self.camera.size[0] + column) as usize;
-        [0, 1, 2].map(|k| f64::from(self.bytes[at + k]))
+        let words = bytes.as_chunks::<4>().0.iter();
+        let values = words.map(|word| f32::from_ne_bytes(*word)).collect();
+        Self { camera, values }
     }
 
     /// A pixel in linear light.
     #[must_use]
     pub fn linear(&self, column: u32, row: u32) -> [f64; 3] {
-        self.displayed(column, row).map(|c| decoded(c / 255.0))
+        let at = 4 * (row * self.camera.size[0] + column) as usize;
+        [0, 1, 2].map(|k| f64::from(self.values[at + k]))
+    }
+
+    /// A pixel as it is displayed, each component 0 to 255, not rounded.
+    #[must_use]
+    pub fn displayed(&self, column: u32, row: u32) -> [f64; 3] {
+        self.linear(column, row)
+            .map(|c| 255.0 * encoded(c.clamp(0.0, 1.0)))
     }
 
     /// All pixels as they are displayed.
     pub fn pixels(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
         let [width, height] = self.camera.size;
         (0..width * height).map(move |k| self.displayed(k % width, k / width))
-    }
-}
-
-/// sRGB to linear light (IEC 61966-2-1).
-#[must_use]
-pub fn decoded(c: f64) -> f64 {
-    if c <= 0.04045 {
-        c / 12.92
-    } else {
-        ((c + 0.055) / 1.055).powf(2.4)
     }
 }
 

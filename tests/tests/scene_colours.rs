@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use pullback_tests::accuracy::evaluators::suite_gpu;
-use pullback_tests::pictures::{Camera, Picture, Random, apart, encoded, hue_and_value, turns};
+use pullback_tests::pictures::{Camera, Picture, Random, apart, hue_and_value, turns};
 
 // ------------------------------------------------------------------------------------------------------------------
 // bands
@@ -68,8 +68,9 @@ fn strip(samples: u32) -> Camera {
     }
 }
 
-/// A displayed component is rounded to 8 bits after half a step of dither.
-const STEP: f64 = 1.05;
+/// Of linear light. Φ is exact to 1.5e-7 by its formula, and its exponential to a few ulp of the adapter; up to eight edges count
+/// at a time, and the mean that stands for more is exact to 3.3e-6.
+const STEP: f64 = 1e-5;
 
 #[test]
 fn stripes_are_the_mean_under_the_footprint() {
@@ -90,9 +91,9 @@ fn stripes_are_the_mean_under_the_footprint() {
                     let u = rate * (x + 4.0 / 3.0 * y) + 0.3;
                     let spread = footprint * rate * 5.0 / 3.0;
                     let wanted = true_mean(&OWN[..count], u, spread);
-                    let found = picture.displayed(column, 7);
+                    let found = picture.linear(column, 7);
                     for k in 0..3 {
-                        let off = (found[k] - 255.0 * encoded(wanted[k])).abs();
+                        let off = (found[k] - wanted[k]).abs();
                         worst = worst.max(off);
                         assert!(
                             off <= STEP,
@@ -103,7 +104,7 @@ fn stripes_are_the_mean_under_the_footprint() {
             }
         }
     }
-    println!("off by at most {worst:.2} of 255");
+    println!("off by at most {worst:.1e} of 1");
 }
 
 /// The colours of the other palettes are those that constants have; they, too, give way to their mean.
@@ -137,14 +138,10 @@ fn stripes_of_every_palette_fade_to_their_mean() {
             for column in (0..320).step_by(7) {
                 let [x, _] = picture.camera.world(f64::from(column) + 0.5, 7.5);
                 let wanted = true_mean(&colours, rate * x, 0.5 * rate);
-                let found = picture.displayed(column, 7);
+                let found = picture.linear(column, 7);
                 for k in 0..3 {
-                    // the colours were themselves read from 8 bits
-                    let off = (found[k] - 255.0 * encoded(wanted[k])).abs();
-                    assert!(
-                        off <= 2.0 * STEP,
-                        "{palette}, {rate}: {found:?}, not {wanted:?}"
-                    );
+                    let off = (found[k] - wanted[k]).abs();
+                    assert!(off <= STEP, "{palette}, {rate}: {found:?}, not {wanted:?}");
                 }
             }
         }
@@ -167,9 +164,9 @@ fn constants_have_the_colour_of_their_stripe() {
         ("-400000.5", 3),
     ] {
         let source = format!("show bands({value}) {{ period = 1, {} }}", own_colours());
-        let found = Picture::draw(&gpu, &source, strip(1)).displayed(30, 9);
+        let found = Picture::draw(&gpu, &source, strip(1)).linear(30, 9);
         for k in 0..3 {
-            let wanted = 255.0 * encoded(OWN[index][k]);
+            let wanted = OWN[index][k];
             assert!(
                 (found[k] - wanted).abs() <= STEP,
                 "{value}: {found:?}, not colour {index}"
@@ -256,10 +253,9 @@ fn log_step(a: Complex, b: Complex) -> f64 {
     q[0].hypot(q[1]).log2().abs().max((q[1].atan2(q[0])).abs())
 }
 
-/// Bounds on what is read back. A step of 8 bits is 1/1530 of a turn at the steepest, and at the brightest 0.9 % of the
-/// light, which is 2.5 % of an octave.
-const TURNS: f64 = 0.004;
-const OCTAVES: f64 = 0.045;
+/// Bounds on what is read back, in turns and octaves: the shader's colours are in f32, and a hundredth of a step of 8 bits.
+const TURNS: f64 = 2e-5;
+const OCTAVES: f64 = 2e-4;
 
 #[test]
 fn domain_colours_are_argument_and_modulus() {

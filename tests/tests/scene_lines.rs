@@ -673,12 +673,13 @@ fn the_polar_grid_has_no_seam() {
             let most = (0..3)
                 .map(|k| (here[k] - other[k]).abs())
                 .fold(0.0, f64::max);
-            let allowed = if shown == "phase" { 12.0 } else { 2.0 };
+            let allowed = if shown == "phase" { 12.0 } else { 0.5 };
             if shown != "phase" || row == 119 {
                 assert!(most <= allowed, "{shown}: {most} at {column}, {row}");
             }
             tones.insert(here[0] as u8);
         }
-        assert!(tones.len() > 2, "{shown}: {} tones", tones.len());
+        // at least paper and one line, cell or hue
+        assert!(tones.len() >= 2, "{shown}: {} tones", tones.len());
     }
 }

@@ -261,3 +261,84 @@ fn keys_are_in_their_corner() {
         assert!(inside > 150, "{scene}: {inside} pixels");
     }
 }
+
+/// The characters of the keys' font by their cells, drawn by hand: rows from the top.
+const FONT: [(char, &str); 13] = [
+    ('0', "### #.# #.# #.# ###"),
+    ('1', ".#. ##. .#. .#. ###"),
+    ('2', "### ..# ### #.. ###"),
+    ('3', "### ..# ### ..# ###"),
+    ('4', "#.# #.# ### ..# ..#"),
+    ('5', "### #.. ### ..# ###"),
+    ('6', "### #.. ### #.# ###"),
+    ('7', "### ..# ..# .#. .#."),
+    ('8', "### #.# ### #.# ###"),
+    ('9', "### #.# ### ..# ###"),
+    ('-', "... ... ### ... ..."),
+    ('.', "... ... ... ... .#."),
+    ('e', "... ### ### #.. ###"),
+];
+
+/// Reads the number at the right end of a bar key whose height is 120 pixels of a picture of 1200 by 240.
+fn right_label(picture: &Picture) -> String {
+    let cell = 10;
+    // margin 4, half size 480 by 60, a gap of two cells
+    let (right, top) = (1200 - 4 - 2 * cell, 240 - 4 - 60 - 25);
+    let mut text = Vec::new();
+    for k in 0.. {
+        let glyph: Vec<String> = (0..5)
+            .map(|row| {
+                let cells = (0..3).map(|column| {
+                    let (x, y) = (
+                        right - 4 * cell * k - cell * (3 - column) + 5,
+                        top + cell * row + 5,
+                    );
+                    let [r, g, b] = picture.linear(x, y);
+                    let is_ink = r == g && g == b && (r == 0.0 || r == 1.0);
+                    if is_ink { '#' } else { '.' }
+                });
+                cells.collect()
+            })
+            .collect();
+        let glyph = glyph.join(" ");
+        match FONT.iter().find(|(_, cells)| *cells == glyph) {
+            Some((character, _)) => text.push(*character),
+            None => break,
+        }
+    }
+    text.iter().rev().collect()
+}
+
+#[test]
+fn keys_say_their_values() {
+    let Some(gpu) = suite_gpu() else { return };
+    for (scale, label) in [
+        ("1", "4"),
+        ("0.025", "0.1"),
+        ("250", "1000"),
+        ("0.03125", "0.125"),
+        ("0.0003125", "0.00125"),
+        ("61725", "247000"),
+        ("2.5e8", "1e9"),
+        ("3.0864e20", "1.23e21"),
+        ("2.5e-12", "1e-11"),
+        ("1.7e-30", "6.8e-30"),
+        ("249.9", "1000"),
+        ("0.2499", "1"),
+    ] {
+        let camera = Camera {
+            center: [0.0; 2],
+            height: 3.0,
+            size: [1200, 240],
+            samples: 1,
+        };
+        let source = format!(
+            "show levels(x - y) {{ color_scale = {scale}, key = 0.5, line_opacity = 0, zero_width = 0 }}"
+        );
+        assert_eq!(
+            right_label(&Picture::draw(&gpu, &source, camera)),
+            label,
+            "{scale}"
+        );
+    }
+}

@@ -57,10 +57,12 @@ fn sequential_ramp(t: f32) -> vec3f { return vec3f(); }
 fn diverging_ramp(t: f32) -> vec3f { return vec3f(); }
 fn normal_cdf(x: f32) -> f32 { return 0.0; }
 fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key { return Key(); }
+fn key_label(key: Key, place: f32, value: f32, anchor: f32) -> bool { return false; }
+fn label_colour(colour: vec3f) -> vec3f { return vec3f(); }
 fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
 
-// Steps further than this many standard deviations away are complete to 1.4e-5.
-const REACH: f32 = 4.2;
+// Steps further than this many standard deviations away are complete to 1e-7.
+const REACH: f32 = 5.2;
 // Share of the whole cycle that a standard deviation must be for the mean of all colours: the first harmonic of the stripes
 // is then below exp(-2π² 0.8²) = 3.3e-6.
 const UNRESOLVED: f32 = 0.8;
@@ -139,11 +141,23 @@ fn key_value(key: Key) -> vec3f {
     return vec3f(reach * key.step.x / view.pixel, 0.0, settings.start + reach * (key.place.x + 1.0));
 }
 
+// Each stripe begins with the value of its lower edge.
+fn labelled(key: Key) -> bool {
+    let count = f32(max(settings.count, 1u));
+    let stripe = floor(0.5 * (key.place.x + 1.0) * count);
+    let value = settings.start + stripe * period();
+    return key_label(key, 2.0 * stripe / count - 1.0, value, 0.0);
+}
+
 fn shade(pixel: vec2f) -> vec4f {
-    let key = key_at(pixel, settings.key, f32(settings.count));
+    let key = key_at(pixel, settings.key, 2.0 * f32(settings.count));
     var jet = field_grad(offset_from_pixel(pixel));
     if key.inside {
         jet = key_value(key);
     }
-    return vec4f(with_key_border(colour_of(jet, pixel), key), 1.0);
+    var colour = colour_of(jet, pixel);
+    if key.inside && labelled(key) {
+        colour = label_colour(colour);
+    }
+    return vec4f(with_key_border(colour, key), 1.0);
 }

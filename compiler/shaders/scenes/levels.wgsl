@@ -67,6 +67,8 @@ fn length2_safe(v: vec2f) -> f32 { return 0.0; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
 fn contour_colour(value: f32, rate: f32, palette: u32, scale: f32, contours: Contours, ink: vec3f, pixel: vec2f) -> vec3f { return vec3f(); }
 fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key { return Key(); }
+fn scale_labels(key: Key, low: f32, middle: f32, high: f32) -> bool { return false; }
+fn label_colour(colour: vec3f) -> vec3f { return vec3f(); }
 fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
 
 // The scale of the colours, 1 where none is set.
@@ -93,11 +95,20 @@ fn key_value(key: Key) -> vec3f {
     return vec3f(reach * key.step.x / view.pixel, 0.0, reach * key.place.x);
 }
 
+fn labelled(key: Key) -> bool {
+    let reach = 4.0 * color_scale();
+    return scale_labels(key, -reach, 0.0, reach);
+}
+
 fn shade(pixel: vec2f) -> vec4f {
     let key = key_at(pixel, settings.key, 8.0);
     var jet = field_grad(offset_from_pixel(pixel));
     if key.inside {
         jet = key_value(key);
     }
-    return vec4f(with_key_border(colour_of(jet, pixel), key), 1.0);
+    var colour = colour_of(jet, pixel);
+    if key.inside && labelled(key) {
+        colour = label_colour(colour);
+    }
+    return vec4f(with_key_border(colour, key), 1.0);
 }

@@ -62,6 +62,8 @@ fn octave_rate(value: f32, gradient: vec2f) -> f32 { return 0.0; }
 fn octave_of_rate(rate: f32, apart: f32, base: f32) -> Octave { return Octave(); }
 fn octave_lines(whole: f32, part: f32, rate: f32, octave: Octave, base: f32, count: u32, width: f32) -> f32 { return 0.0; }
 fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key { return Key(); }
+fn scale_labels(key: Key, low: f32, middle: f32, high: f32) -> bool { return false; }
+fn label_colour(colour: vec3f) -> vec3f { return vec3f(); }
 fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
 
 // Octaves of |f| from the middle of the key to its ends.
@@ -126,11 +128,20 @@ fn key_value(key: Key) -> vec3f {
     return vec3f(value * 0.6931471805599453 * KEY_OCTAVES * key.step.x / view.pixel, 0.0, value);
 }
 
+// |f| in powers of two.
+fn labelled(key: Key) -> bool {
+    return scale_labels(key, exp2(-KEY_OCTAVES), 1.0, exp2(KEY_OCTAVES));
+}
+
 fn shade(pixel: vec2f) -> vec4f {
     let key = key_at(pixel, settings.key, 8.0);
     var jet = field_grad(offset_from_pixel(pixel));
     if key.inside {
         jet = key_value(key);
     }
-    return vec4f(with_key_border(colour_of(jet, pixel), key), 1.0);
+    var colour = colour_of(jet, pixel);
+    if key.inside && labelled(key) {
+        colour = label_colour(colour);
+    }
+    return vec4f(with_key_border(colour, key), 1.0);
 }

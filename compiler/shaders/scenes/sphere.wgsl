@@ -108,24 +108,37 @@ struct Place {
     up: vec3f,
 }
 
+// Three unit vectors at right angles to one another.
+struct Axes {
+    x: vec3f,
+    y: vec3f,
+    z: vec3f,
+}
+
 // Axes of the view: right, up, towards the viewer.
-fn view_axes() -> mat3x3f {
+fn view_axes() -> Axes {
     let yaw = settings.yaw * DEGREE;
     let back = direction_from_angles(yaw, settings.pitch * DEGREE);
     let right = vec3f(-sin(yaw), cos(yaw), 0.0);
-    return mat3x3f(right, cross(back, right), back);
+    return Axes(right, cross(back, right), back);
 }
 
 // The sphere's own axes: turned about x, then y, then z.
-fn object_axes() -> mat3x3f {
+fn object_axes() -> Axes {
     let a = (settings.rotation + vec3f(0.0, 0.0, settings.spin * view.time)) * DEGREE;
     let c = cos(a);
     let s = sin(a);
-    return mat3x3f(
+    return Axes(
         vec3f(c.y * c.z, c.y * s.z, -s.y),
         vec3f(s.x * s.y * c.z - c.x * s.z, s.x * s.y * s.z + c.x * c.z, s.x * c.y),
         vec3f(c.x * s.y * c.z + s.x * s.z, c.x * s.y * s.z - s.x * c.z, c.x * c.y),
     );
+}
+
+// A vector of the view in the sphere's coordinates.
+fn object_from_view(v: vec3f, seen: Axes, object: Axes) -> vec3f {
+    let world = v.x * seen.x + v.y * seen.y + v.z * seen.z;
+    return vec3f(dot(object.x, world), dot(object.y, world), dot(object.z, world));
 }
 
 // A multiplication by i.
@@ -137,13 +150,15 @@ fn product(a: vec2f, b: vec2f) -> vec2f {
     return vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
-// The point that is seen at a point of the picture, at most 1 from the centre, in coordinates turned by `axes`.
-fn place_at(at: vec2f, axes: mat3x3f) -> Place {
+// The point that is seen at a point of the picture, at most 1 from the centre, in the sphere's coordinates.
+fn place_at(at: vec2f) -> Place {
+    let seen = view_axes();
+    let object = object_axes();
     let depth = sqrt(max(1.0 - dot(at, at), 1e-6));
     return Place(
-        axes * vec3f(at, depth),
-        axes * vec3f(1.0, 0.0, -at.x / depth),
-        axes * vec3f(0.0, 1.0, -at.y / depth),
+        object_from_view(vec3f(at, depth), seen, object),
+        object_from_view(vec3f(1.0, 0.0, -at.x / depth), seen, object),
+        object_from_view(vec3f(0.0, 1.0, -at.y / depth), seen, object),
     );
 }
 
@@ -262,7 +277,7 @@ fn shade(pixel: vec2f) -> vec4f {
     let at = offset_from_pixel(pixel) + view.center;
     let radius = length(at);
     let inside = at * min(1.0, 0.9999995 / max(radius, 1e-6));
-    let place = place_at(inside, transpose(object_axes()) * view_axes());
+    let place = place_at(inside);
     var jet = seen_jet(place);
     if key.inside {
         jet = key_jet(key, 2.0);

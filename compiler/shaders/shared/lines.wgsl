@@ -84,6 +84,11 @@ fn octave_of_rate(rate: f32, apart: f32, base: f32) -> Octave {
     return Octave(i32(finest), finest - place);
 }
 
+// Whether f32 tells places within a period apart, u periods from 0: 1 as long as it has 128 of them, 0 from 32 on.
+fn resolved(u: f32) -> f32 {
+    return select(0.0, 1.0 - smoothstep(131072.0, 524288.0, u), u < 524288.0);
+}
+
 // Lines of constant width at the multiples of base^n of a coordinate u = whole + part, for all n from `finest` up. The
 // finest ones fade in as the picture is magnified, over `count` octaves (at least two): a line's weight depends on how far
 // it is from its equals on the screen, and is continuous when the finest octave changes.
@@ -93,11 +98,11 @@ fn octave_lines(whole: f32, part: f32, rate: f32, octave: Octave, base: f32, cou
     for (var j = 0u; j < max(count, 2u); j++) {
         let n = octave.finest + i32(j);
         let coarse = over_power(whole, base, n);
-        let u = (coarse - floor(coarse)) + over_power(part, base, n);
+        let fine = over_power(part, base, n);
+        let u = (coarse - floor(coarse)) + fine;
         let per_pixel = over_power(rate, base, n);
-        let weight = min((f32(j) + octave.blend) / steps, 1.0);
-        // past 2²² lines f32 no longer resolves the place between two of them
-        if abs(coarse) < 4194304.0 {
+        let weight = resolved(max(abs(coarse), abs(fine))) * min((f32(j) + octave.blend) / steps, 1.0);
+        if weight > 0.0 {
             covered = max(covered, weight * line_train(u, min(per_pixel * width, 1.0), per_pixel * sample_window()));
         }
     }
@@ -126,8 +131,9 @@ fn octave_squares(u: f32, rate: f32, octave: Octave, base: f32) -> f32 {
 
 fn squares_of_side(u: f32, rate: f32, base: f32, n: i32) -> f32 {
     let place = over_power(u, base, n);
-    if !(abs(place) < 4194304.0) {
+    let known = resolved(abs(place));
+    if known == 0.0 {
         return 0.0;
     }
-    return square_train(place, over_power(rate, base, n) * sample_window());
+    return known * square_train(place, over_power(rate, base, n) * sample_window());
 }

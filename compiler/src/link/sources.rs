@@ -62,6 +62,7 @@ const SHARED: &str = concat!(
     include_str!("../../shaders/shared/plane.wgsl"),
     include_str!("../../shaders/shared/logarithm.wgsl"),
     include_str!("../../shaders/shared/phase.wgsl"),
+    include_str!("../../shaders/shared/digits.wgsl"),
     include_str!("../../shaders/shared/key.wgsl"),
     include_str!("../../shaders/shared/camera.wgsl"),
     include_str!("../../shaders/shared/box.wgsl"),
