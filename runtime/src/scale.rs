@@ -9,6 +9,8 @@ use crate::render::{Size, View};
 
 /// Samples along each side of the view.
 const SAMPLES: usize = 33;
+/// Samples along each side of a box.
+const SPACE_SAMPLES: usize = 15;
 /// The share of the view whose values stay below the scale, and the share whose values stay below four times the
 /// scale: a function that is small in most of the view still shows its peaks.
 const SHARES: (f64, f64) = (0.6, 0.95);
@@ -31,7 +33,7 @@ fn period(sizes: &[f64]) -> f64 {
     round_number(share(sizes, STRIPES.0) / STRIPES.1)
 }
 
-/// Sets an automatic `color_scale` or `period` from the values that the formula takes in the view, in f64, such that level
+/// Sets an automatic `color_scale` or `period` from the values that the formula takes in what is seen, in f64, such that level
 /// lines and edges of stripes stand at round values.
 pub fn fill_in_scale(
     settings: &mut [SettingValue],
@@ -41,25 +43,23 @@ pub fn fill_in_scale(
     params: &[f64],
     time: f64,
 ) {
+    let points = points(settings, picture, view, size);
     let automatic = settings.iter_mut().find_map(|setting| {
         let (_, rule) = AUTOMATIC.into_iter().find(|a| a.0 == setting.spec.name)?;
         (setting.value[0] == 0.0).then_some((setting, rule))
     });
-    let Some((setting, rule)) = automatic.filter(|_| picture.scene.space == Space::Plane) else {
+    let Some((setting, rule)) = automatic.filter(|_| !points.is_empty()) else {
         return;
     };
     let Ok(mut evaluator) = Evaluator::new(&picture.formula, What::Value) else {
         return;
     };
-    let width = view.height * f64::from(size.width) / f64::from(size.height);
     let pixel = view.height / f64::from(size.height);
-    let mut sizes = Vec::with_capacity(SAMPLES * SAMPLES);
-    for k in 0..SAMPLES * SAMPLES {
-        let place = |k: usize| (k as f64 + 0.5) / SAMPLES as f64 - 0.5;
-        let x = view.center[0] + place(k % SAMPLES) * width;
-        let y = view.center[1] + place(k / SAMPLES) * view.height;
+    let inputs = evaluator.inputs().len().min(3);
+    let mut sizes = Vec::with_capacity(points.len());
+    for point in points {
         let mut value = [f64::NAN];
-        evaluator.eval(params, time, pixel, &[x, y], &mut value);
+        evaluator.eval(params, time, pixel, &point[..inputs], &mut value);
         if value[0].is_finite() {
             sizes.push(value[0].abs());
         }
@@ -67,6 +67,32 @@ pub fn fill_in_scale(
     sizes.retain(|s| *s > 0.0);
     sizes.sort_by(f64::total_cmp);
     setting.value = DVec3::splat(rule(&sizes));
+}
+
+/// Where values are taken: a grid of the view, or of the box of a scene of space; complex scenes need no scale.
+fn points(settings: &[SettingValue], picture: &Picture, view: &View, size: Size) -> Vec<[f64; 3]> {
+    let vector = |name: &str| {
+        let found = settings.iter().find(|s| s.spec.name == name);
+        found.map_or(DVec3::ZERO, |s| s.value)
+    };
+    let (center, half, counts) = match picture.scene.space {
+        Space::Plane => {
+            let width = view.height * f64::from(size.width) / f64::from(size.height);
+            let half = 0.5 * DVec3::new(width, view.height, 0.0);
+            let [x, y] = view.center;
+            (DVec3::new(x, y, 0.0), half, [SAMPLES, SAMPLES, 1])
+        }
+        Space::Space => (vector("center"), vector("box"), [SPACE_SAMPLES; 3]),
+        Space::Complex => return Vec::new(),
+    };
+    let [columns, rows, layers] = counts;
+    let place = |k: usize, count: usize| (2.0 * k as f64 + 1.0) / count as f64 - 1.0;
+    let at = |k: usize| {
+        let (x, y, z) = (k % columns, k / columns % rows, k / columns / rows);
+        let part = DVec3::new(place(x, columns), place(y, rows), place(z, layers));
+        (center + half * part).to_array()
+    };
+    (0..columns * rows * layers).map(at).collect()
 }
 
 /// The size below which a share of the sorted sizes lies; 1 where there are none.

@@ -459,6 +459,23 @@ def kifs(x, y, z):
     return (hypot3(x, y, z) - mp.mpf("1.25")) / mp.mpf("1.75") ** 6
 
 
+def smin(a, b, width):
+    k = mp.mpf(width)
+    h = clamp((b - a) / (2 * k) + mp.mpf("0.5"), 0, 1)
+    return b * (1 - h) + a * h - k * h * (1 - h)
+
+
+def ember(x, y, z):
+    u, v, w = (a + mp.mpf("0.06") * sin(7 * b) for a, b in ((x, z), (y, x), (z, y)))
+    for _ in range(2):
+        u, v, w = (absolute(a) - mp.mpf(f) for a, f in zip((u, v, w), ("0.55", "0.35", "0.4")))
+        u, v = turned(u, v, "0.6")
+        v, w = turned(v, w, "0.4")
+        u, v, w = (mp.mpf("1.6") * a for a in (u, v, w))
+    rods = smin(smin(hypot(v, w), hypot(u, w), "0.2"), hypot(u, v), "0.2")
+    return smin((rods - mp.mpf("0.09")) / mp.mpf("1.6") ** 2, hypot3(x, y, z) - mp.mpf("0.35"), "0.3")
+
+
 def sponge(x, y, z):
     for _ in range(4):
         x, y, z = absolute(x), absolute(y), absolute(z)
@@ -495,7 +512,28 @@ def pebble(x, y, z):
     return hypot3(x, y, z) - 1 + mp.mpf("0.3") * noise.noise([3 * x, 3 * y, 3 * z])
 
 
+def multipole(x, y, z):
+    a, b = mp.mpf("1.25"), mp.mpf("0.5")
+    return 1 / hypot3(x - a, y, z) + 1 / hypot3(x + b, y - 1, z) - 2 / hypot3(x + b, y + 1, z)
+
+
+def orbital(x, y, z):
+    r = hypot3(x, y, z)
+    return z * (5 * z**2 - 3 * r**2) * exp(-r / 4)
+
+
+def resonance(x, y, z):
+    first = cos(2 * x) * cos(3 * y) * cos(z)
+    return first + cos(3 * x) * cos(y) * cos(2 * z) - cos(x) * cos(2 * y) * cos(3 * z)
+
+
 SPACE = {
+    "ember": (ember, 2, [(0.35, 0, 0), (0.55, 0.35, 0.4), (0, 0, 0), (0.25, 0.5, 0.75)]),
+    "multipole": (multipole, 2, [(1.25, 0.125, 0), (-0.5, 1, 0.25), (-0.5, -0.75, 0), (0, 0, 0)]),
+    "schwarz-family": (lambda x, y, z: cos(PI * x) + cos(PI * y) + cos(PI * z), 1.5, [(0, 0, 0), (0.5, 0.5, 0.5), (1, 0, 0), (1, 1, 0)]),
+    "neovius": (lambda x, y, z: 3 * (cos(x) + cos(y) + cos(z)) + 4 * cos(x) * cos(y) * cos(z), 4.5, [(0, 0, 0), (1.5707964, 1.5707964, 1.5707964), (3.1415927, 0, 0)]),
+    "orbital": (orbital, 27, [(0, 0, 9), (3, 4, 0), (6, 0, 4.6475801)]),
+    "resonance": (resonance, 3.1415927, [(0, 0, 0), (1.5707964, 0.5, 0.25), (3.1415927, 1, 2)]),
     "kifs": (kifs, 2, [(0.625, 0.5, 0.375), (1, 0.2, 0.3), (0, 0, 0)]),
     "sponge": (sponge, 1.25, [(1, 0.4, 0.3), (0.34, 0.9, 1), (0.5, 0.5, 0.2)]),
     "mandelbulb": (mandelbulb, 1.25, [(0.9, 0.3, 0.2), (0, 1.1, 0.1), (0.5, 0.5, 0.5)]),

@@ -39,7 +39,7 @@ impl Random {
 }
 
 /// What is inserted: every sign and word of the language, and what people write instead.
-const TOKENS: [&str; 180] = [
+const TOKENS: [&str; 182] = [
     "(",
     ")",
     "{",
@@ -167,6 +167,8 @@ const TOKENS: [&str; 180] = [
     "levels",
     "domain",
     "surface",
+    "cutaway",
+    "volume",
     "height",
     "iterate",
     "product",

@@ -131,6 +131,34 @@ pub fn evaluations(module: &Module, name: &str) -> Option<usize> {
     in_function(module, handle)
 }
 
+/// How many calls of `callee` a function has when all that it calls is copied into it, as drivers do.
+#[must_use]
+pub fn copies(module: &Module, name: &str, callee: &str) -> usize {
+    let named = |f: &Function| f.name.as_deref() == Some(name);
+    let Some((_, function)) = module.functions.iter().find(|(_, f)| named(f)) else {
+        return 0;
+    };
+    copies_in(module, &function.body, callee)
+}
+
+fn copies_in(module: &Module, block: &Block, callee: &str) -> usize {
+    let within = |block: &Block| copies_in(module, block, callee);
+    let in_statement = |statement: &Statement| match statement {
+        Statement::Call { function, .. } => {
+            let called = &module.functions[*function];
+            usize::from(called.name.as_deref() == Some(callee)) + within(&called.body)
+        }
+        Statement::Block(inner) => within(inner),
+        Statement::If { accept, reject, .. } => within(accept) + within(reject),
+        Statement::Switch { cases, .. } => cases.iter().map(|case| within(&case.body)).sum(),
+        Statement::Loop {
+            body, continuing, ..
+        } => within(body) + within(continuing),
+        _ => 0,
+    };
+    block.iter().map(in_statement).sum()
+}
+
 fn in_function(module: &Module, handle: Handle<Function>) -> Option<usize> {
     let function = &module.functions[handle];
     if function

@@ -507,6 +507,56 @@ fn a_formula_carries_only_the_functions_that_it_uses() {
     assert!(!has("f(z) = z", "field"));
 }
 
+#[test]
+fn scenes_of_space_carry_nothing_of_one_another() {
+    for (scene, present, absent) in [
+        (
+            "slices",
+            &["field_grad", "contour_colour"][..],
+            &["field_ray", "march_on", "matter_of"][..],
+        ),
+        (
+            "nested",
+            &["field_ray", "field_grad", "march_on"],
+            &["contour_colour", "kept_part", "matter_of"],
+        ),
+        (
+            "cutaway",
+            &["field_ray", "contour_colour", "kept_part"],
+            &["matter_of"],
+        ),
+        (
+            "volume",
+            &["field_grad", "matter_of"],
+            &["field_ray", "contour_opacity", "march_on", "kept_part"],
+        ),
+        (
+            "volumecut",
+            &["field_grad", "matter_of", "contour_opacity"],
+            &["field_ray", "march_on", "mean_value_colour"],
+        ),
+        (
+            "glow",
+            &["field_grad", "mean_glow"],
+            &["field_ray", "march_on", "matter_of", "screen_rate"],
+        ),
+    ] {
+        let text = format!("f(x, y, z) = x y + z\nshow {scene}(f)");
+        let program = program(&text, &text);
+        let module = program
+            .scene_module(0, Precision::Accurate)
+            .expect("a scene")
+            .module;
+        let names = function_names(&module);
+        for name in present {
+            assert!(names.iter().any(|n| n == name), "{scene} lacks {name}");
+        }
+        for name in absent.iter().chain(&["field", "search_step"]) {
+            assert!(!names.iter().any(|n| n == name), "{scene} carries {name}");
+        }
+    }
+}
+
 /// The bodies of `map_jet` for a formula of z.
 fn jet_size(text: &str) -> usize {
     let program = program(text, text);

@@ -6,9 +6,9 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Function, Module, ScalarKind, Statement, TypeInner, VectorSize};
 use pullback_compiler::link::{Sources, is_stub};
 use pullback_compiler::lower::Tier;
-use pullback_compiler::scene::{Scene, SettingKind, Space, scenes};
+use pullback_compiler::scene::{Scene, SettingKind, Space, scene, scenes};
 use pullback_tests::corpus::{Source, files, read, root};
-use pullback_tests::units::{FIELD_STUBS, evaluations, finite_differences};
+use pullback_tests::units::{FIELD_STUBS, copies, evaluations, finite_differences};
 
 fn parse(name: &str, text: &str) -> Module {
     naga::front::wgsl::parse_str(text)
@@ -235,6 +235,19 @@ fn plane_and_complex_scenes_evaluate_once() {
             "evaluations of the formula per sample in {}",
             scene.name
         );
+    }
+}
+
+/// Drivers copy a formula to each place that calls it: more places take a large formula longer to compile.
+#[test]
+fn scenes_of_space_hold_one_copy_of_the_formula_for_each_stub() {
+    for name in ["slices", "nested", "cutaway", "volume", "volumecut", "glow"] {
+        let scene = scene(name).expect("a scene");
+        let module = parse(scene.name, scene.template);
+        for stub in FIELD_STUBS {
+            let found = copies(&module, "shade", stub);
+            assert!(found <= 1, "{name} has {found} copies of {stub}");
+        }
     }
 }
 

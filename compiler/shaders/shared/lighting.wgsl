@@ -19,3 +19,13 @@ fn schlick_fresnel(cosine: f32, f0: f32) -> f32 {
     let c2 = c * c;
     return f0 + (1.0 - f0) * c2 * c2 * c;
 }
+
+// Light that reaches the eye from a surface of one colour: light of sky and ground, a wrapped sun, its highlight, and a
+// rim in the colour of the surroundings.
+fn lit_colour(colour: vec3f, n: vec3f, l: vec3f, v: vec3f, surroundings: vec3f) -> vec3f {
+    let sky = mix(vec3f(0.24, 0.21, 0.19), vec3f(0.36, 0.40, 0.46), 0.5 + 0.5 * n.z);
+    let sun = vec3f(1.06, 1.00, 0.91) * wrap_diffuse(n, l, 0.35);
+    let gloss = blinn_specular(n, l, v, 110.0) * 0.30;
+    let rim = (schlick_fresnel(abs(dot(n, v)), 0.03) - 0.03) * 0.30;
+    return colour * (sky + sun) + vec3f(gloss) + rim * surroundings;
+}

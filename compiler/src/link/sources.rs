@@ -67,6 +67,12 @@ const SHARED: &str = concat!(
     include_str!("../../shaders/shared/camera.wgsl"),
     include_str!("../../shaders/shared/box.wgsl"),
     include_str!("../../shaders/shared/lighting.wgsl"),
+    include_str!("../../shaders/shared/values.wgsl"),
+    include_str!("../../shaders/shared/space.wgsl"),
+    include_str!("../../shaders/shared/march.wgsl"),
+    include_str!("../../shaders/shared/shells.wgsl"),
+    include_str!("../../shaders/shared/medium.wgsl"),
+    include_str!("../../shaders/shared/glow.wgsl"),
 );
 
 const ENTRY: &str = include_str!("../../shaders/shared/entry.wgsl");

@@ -2,14 +2,21 @@
 
 mod bands;
 mod checker;
+mod cutaway;
 mod domain;
+mod glow;
 mod grid;
 mod implicit;
 mod levels;
 mod logcontours;
+mod nested;
 mod setting;
+mod slices;
+mod space;
 mod sphere;
 mod surface;
+mod volume;
+mod volumecut;
 
 use std::sync::OnceLock;
 
@@ -49,7 +56,7 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 9] = [
+    static SCENES: [Scene; 15] = [
         levels::SCENE,
         logcontours::SCENE,
         bands::SCENE,
@@ -59,6 +66,12 @@ pub fn scenes() -> &'static [Scene] {
         grid::SCENE,
         sphere::SCENE,
         surface::SCENE,
+        slices::SCENE,
+        nested::SCENE,
+        cutaway::SCENE,
+        volume::SCENE,
+        volumecut::SCENE,
+        glow::SCENE,
     ];
     &SCENES
 }

@@ -1,8 +1,6 @@
 //! The settings of `surface`.
 
-use super::{Scene, SettingSpec, Space};
-
-const ANY: f64 = f64::INFINITY;
+use super::{Scene, SettingSpec, Space, space};
 
 /// A level set in space, lit, in a box on the ground.
 pub const SCENE: Scene = Scene {
@@ -11,61 +9,26 @@ pub const SCENE: Scene = Scene {
     space: Space::Space,
     template: include_str!("../../shaders/scenes/surface.wgsl"),
     settings: &[
-        SettingSpec::vec3(
-            "box",
-            [2.0; 3],
-            (1e-6, 1e6),
-            "half size of the box, world units",
+        space::BOX,
+        space::CENTER,
+        SettingSpec::real(
+            "level",
+            0.0,
+            (-space::ANY, space::ANY),
+            "value of f on the surface",
         ),
-        SettingSpec::vec3(
-            "center",
-            [0.0; 3],
-            (-1e6, 1e6),
-            "centre of the box, world units",
-        ),
-        SettingSpec::real("level", 0.0, (-ANY, ANY), "value of f on the surface"),
         SettingSpec::integer(
             "steps",
             160.0,
             (8.0, 4096.0),
             "samples along the diagonal of the box",
         ),
-        SettingSpec::real(
-            "yaw",
-            32.0,
-            (-3600.0, 3600.0),
-            "degrees, of the camera about z, from +x towards +y",
-        ),
-        SettingSpec::real(
-            "pitch",
-            24.0,
-            (-89.0, 89.0),
-            "degrees, of the camera above the ground",
-        ),
-        SettingSpec::real(
-            "distance",
-            0.0,
-            (0.0, 1e6),
-            "from the camera to the centre; 0: the box fills the view",
-        ),
-        SettingSpec::real(
-            "fov",
-            28.0,
-            (1.0, 120.0),
-            "degrees, across the shorter side of the picture",
-        ),
-        SettingSpec::real(
-            "light_yaw",
-            -50.0,
-            (-3600.0, 3600.0),
-            "degrees, of the light about z, from the camera's yaw",
-        ),
-        SettingSpec::real(
-            "light_pitch",
-            52.0,
-            (-90.0, 90.0),
-            "degrees, of the light above the ground",
-        ),
+        space::YAW,
+        space::PITCH,
+        space::DISTANCE,
+        space::FOV,
+        space::LIGHT_YAW,
+        space::LIGHT_PITCH,
         SettingSpec::colour(
             "outside",
             [0.66, 0.23, 0.085],
@@ -76,15 +39,11 @@ pub const SCENE: Scene = Scene {
             [0.06, 0.22, 0.45],
             "colour of the side where f < level, linear rgb",
         ),
-        SettingSpec::colour(
-            "background",
-            [0.80, 0.82, 0.85],
-            "colour of the horizon, linear rgb",
-        ),
+        space::BACKGROUND,
         SettingSpec::real(
             "isoline_spacing",
             0.5,
-            (0.0, ANY),
+            (0.0, space::ANY),
             "value between lines on the walls; 0: only the surface's",
         ),
         SettingSpec::real(
@@ -93,12 +52,7 @@ pub const SCENE: Scene = Scene {
             (0.0, 20.0),
             "pixels, of the lines on the walls",
         ),
-        SettingSpec::real(
-            "edge_width",
-            1.4,
-            (0.0, 20.0),
-            "pixels, of the box's edges; 0: none",
-        ),
+        space::EDGE_WIDTH,
         SettingSpec::real(
             "wall_opacity",
             1.0,

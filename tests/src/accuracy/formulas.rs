@@ -48,7 +48,7 @@ macro_rules! gallery {
     };
 }
 
-const GALLERY: [(&str, &str, &str); 53] = gallery![
+const GALLERY: [(&str, &str, &str); 59] = gallery![
     "charges",
     "confocal",
     "doyle-mcmullen",
@@ -68,6 +68,7 @@ const GALLERY: [(&str, &str, &str); 53] = gallery![
     "ding-dong",
     "dipole",
     "dome",
+    "ember",
     "essential",
     "gyroid",
     "heart",
@@ -81,14 +82,19 @@ const GALLERY: [(&str, &str, &str); 53] = gallery![
     "lemniscate",
     "mandelbrot",
     "mandelbulb",
+    "multipole",
+    "neovius",
     "newton",
     "newton-basins",
     "norms",
+    "orbital",
     "parabolic",
     "peaks",
     "pebble",
     "rational",
+    "resonance",
     "saddle",
+    "schwarz-family",
     "schwarz-p",
     "sin-rings",
     "smooth-union",

@@ -1,0 +1,318 @@
+// cutaway: the level sets f = level + k spacing inside a box, one opaque, the others translucent, cut open by a plane; on
+// the cut the values by colour and contour lines. Kept is what lies on the side of the plane that its normal points away
+// from. Composited from front to back in the order in which a ray meets them.
+//
+// Settings (see the record for ranges):
+// | box, center              | world   | half size and centre of the box |
+// | normal                   |         | of the plane, towards what is cut away |
+// | position                 |         | of the plane: -1 and 1 where it leaves the box, 0 in the middle |
+// | sweep, period            | seconds | swing of the position |
+// | level                    | value   | of f in the middle of the family |
+// | spacing                  | value   | between levels; 0: half of color_scale |
+// | count                    |         | number of levels |
+// | highlight                |         | number of the opaque level, from the lowest; 0: the middle one |
+// | highlight_opacity        |         | of it |
+// | ghost_opacity            |         | of the others, face on |
+// | color_scale              | value   | of the colours of the cut |
+// | contour_spacing          | value   | between lines on the cut, 0: a quarter of color_scale |
+// | line_width, line_opacity | pixels  | of lines on the cut |
+// | level_width              | pixels  | of the line f = level on the cut |
+// | ink                      | linear  | colour of lines on the cut |
+// | cut_below, cut_above     |         | opacity of the cut where f < level, and where f > level |
+// | steps                    |         | samples along the diagonal of the box |
+// | isoline_width            | pixels  | of the lines on the walls |
+// | wall_opacity, edge_width |         | of the walls; pixels, of the edges of box and cut |
+// | lighting                 |         | 0: flat colours |
+// | yaw, pitch, fov          | degrees | of the camera |
+// | distance                 | world   | of the camera, 0: the box fills the view |
+// | light_yaw, light_pitch   | degrees | of the light, from the camera's yaw |
+// | backdrop, background     |         | 0 ground and sky, 1 plain; colour of the horizon |
+//
+// Where f is undefined there is no surface; cut and walls are hatched. A constant has no surface, and one colour on the
+// cut. A sign change where f does not shrink towards the level (a pole, a jump) is no surface.
+
+struct View {
+    center: vec2f,     // world coordinates of the centre of the whole image
+    size: vec2f,       // whole image, pixels
+    tile: vec2f,       // pixel of the whole image at this tile's top-left corner
+    pixel: f32,        // world units per pixel
+    time: f32,         // seconds
+    samples: u32,      // supersamples per axis, >= 1
+    zero: u32,         // always 0, but the shader compiler does not know
+    tile_size: vec2u,  // this tile, pixels
+}
+
+struct Settings {
+    box: vec3f,
+    center: vec3f,
+    normal: vec3f,
+    position: f32,
+    ink: vec3f,
+    sweep: f32,
+    period: f32,
+    level: f32,
+    spacing: f32,
+    count: u32,
+    highlight: u32,
+    highlight_opacity: f32,
+    ghost_opacity: f32,
+    color_scale: f32,
+    contour_spacing: f32,
+    line_width: f32,
+    line_opacity: f32,
+    level_width: f32,
+    cut_below: f32,
+    cut_above: f32,
+    steps: u32,
+    isoline_width: f32,
+    wall_opacity: f32,
+    lighting: f32,
+    yaw: f32,
+    pitch: f32,
+    distance: f32,
+    fov: f32,
+    light_yaw: f32,
+    light_pitch: f32,
+    backdrop: u32,
+    background: vec3f,
+    edge_width: f32,
+}
+
+struct Ray {
+    origin: vec3f,
+    direction: vec3f,  // of length 1
+}
+
+struct Sight {
+    ray: Ray,
+    forward: vec3f,
+    slope: f32,
+}
+
+struct Kept {
+    start: f32,
+    end: f32,
+    cut_first: bool,
+    cut_last: bool,
+}
+
+struct Contours {
+    spacing: f32,
+    width: f32,
+    zero_width: f32,
+    opacity: f32,
+    major: u32,
+}
+
+struct Family {
+    lowest: f32,
+    spacing: f32,
+    count: u32,
+}
+
+struct Probe {
+    t: f32,
+    u: f32,
+    slope: f32,
+    valid: bool,
+}
+
+struct March {
+    t: f32,
+    state: u32,
+    hit: bool,
+    hit_level: i32,
+    hit_t: f32,
+    touching: bool,
+    near: Probe,
+    far: Probe,
+    later: Probe,
+    split: bool,
+    band: i32,
+    k: u32,
+    count: u32,
+    step: f32,
+    low: Probe,
+    high: Probe,
+    nearest: Probe,
+    low_weight: f32,
+    high_weight: f32,
+    width: f32,
+    before: f32,
+    rounds: u32,
+    level: i32,
+}
+
+struct Shells {
+    family: Family,
+    opaque_level: i32,
+    opaque_opacity: f32,
+    ghost_opacity: f32,
+    lighting: f32,
+    light: vec3f,
+    surroundings: vec3f,
+}
+
+struct Layer {
+    colour: vec3f,
+    opacity: f32,
+}
+
+struct Seen {
+    light: vec3f,
+    through: f32,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
+@group(0) @binding(2) var<uniform> settings: Settings;
+
+// f and df/dt at o + t d
+fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f { return vec2f(); }
+// (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
+fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
+
+fn direction_or(v: vec3f, fallback: vec3f) -> vec3f { return vec3f(); }
+fn direction_from_angles(yaw: f32, pitch: f32) -> vec3f { return vec3f(); }
+fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 { return 0.0; }
+fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
+fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
+fn plane_offset(n: vec3f, center: vec3f, half_size: vec3f, position: f32) -> f32 { return 0.0; }
+fn swept_position(position: f32, sweep: f32, period: f32) -> f32 { return 0.0; }
+fn kept_part(ray: Ray, span: vec2f, n: vec3f, offset: f32) -> Kept { return Kept(); }
+fn contour_colour(value: f32, rate: f32, palette: u32, scale: f32, contours: Contours, ink: vec3f, pixel: vec2f) -> vec3f { return vec3f(); }
+fn stage_colour(ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec3f { return vec3f(); }
+fn march_over(extent: f32, count: u32) -> March { return March(); }
+fn march_on(m: March, jet: vec2f, family: Family) -> March { return March(); }
+fn march_strides(m: March, jet: vec2f, family: Family) -> bool { return false; }
+fn march_stride(before: March, jet: vec2f, family: Family) -> March { return March(); }
+fn march_is_done(m: March) -> bool { return false; }
+fn family_around(middle: f32, spacing: f32, count: u32) -> Family { return Family(); }
+fn highlighted_level(number: u32, count: u32) -> i32 { return 0; }
+fn shell_layer(level: i32, touching: bool, gradient: vec3f, direction: vec3f, shells: Shells) -> Layer { return Layer(); }
+fn shell_wall(value: f32, rate: f32, behind: bool, width: f32, shells: Shells, pixel: vec2f) -> Layer { return Layer(); }
+fn edge_layer(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32, behind: bool) -> Layer { return Layer(); }
+fn seen_nothing() -> Seen { return Seen(); }
+fn seen_behind(seen: Seen, layer: Layer) -> Seen { return Seen(); }
+
+const DEGREE: f32 = 0.017453292519943295;
+// Layers of a ray that are composited at most, and what has to come through for more of them to be looked for.
+const LAYERS: u32 = 96u;
+const THINNEST: f32 = 0.002;
+
+fn color_scale() -> f32 {
+    return select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
+}
+
+fn shells() -> Shells {
+    let spacing = max(select(0.5 * color_scale(), settings.spacing, settings.spacing > 0.0), 1e-37);
+    return Shells(
+        family_around(settings.level, spacing, settings.count),
+        highlighted_level(settings.highlight, settings.count),
+        settings.highlight_opacity,
+        settings.ghost_opacity,
+        settings.lighting,
+        direction_from_angles((settings.yaw + settings.light_yaw) * DEGREE, settings.light_pitch * DEGREE),
+        settings.background,
+    );
+}
+
+fn backdrop_colour(ray: Ray) -> vec3f {
+    if settings.backdrop == 1u {
+        return settings.background;
+    }
+    return stage_colour(ray, settings.center, settings.box, settings.background);
+}
+
+// The plane's normal, and its offset.
+fn cut_plane() -> vec4f {
+    let n = direction_or(settings.normal, vec3f(1.0, 0.0, 0.0));
+    let position = swept_position(settings.position, settings.sweep, settings.period);
+    return vec4f(n, plane_offset(n, settings.center, settings.box, position));
+}
+
+// The edges of the box on a face or on the cut.
+fn seen_edges(seen: Seen, sight: Sight, t: f32, n: vec3f, behind: bool) -> Seen {
+    return seen_behind(seen, edge_layer(sight, t, n, settings.center, settings.box, settings.edge_width, behind));
+}
+
+// A wall at distance t, behind what has been seen: its lines and tint.
+fn seen_wall(seen: Seen, jet: vec4f, t: f32, behind: bool, sight: Sight, shells: Shells, pixel: vec2f) -> Seen {
+    let n = box_normal(sight.ray.origin + t * sight.ray.direction, settings.center, settings.box);
+    let rate = screen_rate(sight, t, n, jet.xyz);
+    let wall = shell_wall(jet.w, rate, behind, settings.isoline_width, shells, pixel);
+    return seen_behind(seen, Layer(wall.colour, wall.opacity * settings.wall_opacity));
+}
+
+// The cut at distance t: colour and lines of f - level.
+fn seen_cut(seen: Seen, jet: vec4f, t: f32, sight: Sight, n: vec3f, pixel: vec2f) -> Seen {
+    let value = jet.w - settings.level;
+    let rate = screen_rate(sight, t, n, jet.xyz);
+    let spacing = max(select(0.25 * color_scale(), settings.contour_spacing, settings.contour_spacing > 0.0), 1e-37);
+    let contours = Contours(spacing, settings.line_width, settings.level_width, settings.line_opacity, 0u);
+    let colour = contour_colour(value, rate, 0u, color_scale(), contours, settings.ink, pixel);
+    let opacity = select(settings.cut_above, settings.cut_below, value < 0.0);
+    return seen_behind(seen_edges(seen, sight, t, n, true), Layer(colour, opacity));
+}
+
+// The layers of the part of a ray that is kept: wall or cut in front, levels, wall or cut behind.
+fn seen_in_part(before: Seen, sight: Sight, part: Kept, plane: vec4f, pixel: vec2f) -> Seen {
+    let d = sight.ray.direction;
+    let origin = sight.ray.origin + part.start * d;
+    let extent = part.end - part.start;
+    let shells = shells();
+    let diagonal = 2.0 * length(settings.box);
+    var march = march_over(extent, u32(ceil(extent / diagonal * f32(settings.steps))));
+    var seen = before;
+    for (var k = view.zero; k < LAYERS && seen.through > THINNEST; k++) {
+        march.hit = false;
+        while k > 0u && !march.hit && !march_is_done(march) {
+            var jet: vec2f;
+            loop {
+                jet = field_ray(origin, d, march.t);
+                if !march_strides(march, jet, shells.family) {
+                    break;
+                }
+                march = march_stride(march, jet, shells.family);
+            }
+            march = march_on(march, jet, shells.family);
+        }
+        let last = k > 0u && !march.hit;
+        let t = select(select(march.hit_t, extent, last), 0.0, k == 0u);
+        let jet = field_grad(origin + t * d);
+        if k > 0u && !last {
+            seen = seen_behind(seen, shell_layer(march.hit_level, march.touching, jet.xyz, d, shells));
+        } else if (k == 0u && part.cut_first) || (last && part.cut_last) {
+            seen = seen_cut(seen, jet, part.start + t, sight, plane.xyz, pixel);
+        } else if part.start + t > 0.0 {
+            seen = seen_wall(seen, jet, part.start + t, last, sight, shells, pixel);
+        }
+        if last {
+            break;
+        }
+    }
+    return seen;
+}
+
+fn shade(pixel: vec2f) -> vec4f {
+    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let ray = sight.ray;
+    let span = box_span(ray.origin, ray.direction, settings.center, settings.box);
+    var seen = seen_nothing();
+    if span.y > max(span.x, 0.0) {
+        if span.x > 0.0 {
+            let n = box_normal(ray.origin + span.x * ray.direction, settings.center, settings.box);
+            seen = seen_edges(seen, sight, span.x, n, false);
+        }
+        let plane = cut_plane();
+        let part = kept_part(ray, vec2f(max(span.x, 0.0), span.y), plane.xyz, plane.w);
+        if part.end > part.start {
+            seen = seen_in_part(seen, sight, part, plane, pixel);
+        }
+        let n = box_normal(ray.origin + span.y * ray.direction, settings.center, settings.box);
+        seen = seen_edges(seen, sight, span.y, n, true);
+    }
+    let colour = seen.light + seen.through * backdrop_colour(ray);
+    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+}

@@ -1,0 +1,166 @@
+// glow: light that is emitted around the surface f = 0, added up along each ray in a box: nothing is hidden. f is to be
+// like a distance, as fractals of folds give it; any other formula is made one by its gradient.
+//
+// Settings (see the record for ranges):
+// | box, center            | world   | half size and centre of the box |
+// | estimate               |         | d is 0: f divided by its gradient's length, 1: f |
+// | epsilon                |         | width of the surface, in parts of the box's shortest half side |
+// | falloff                |         | emission 0: ε/(|d| + ε)², 1: 1/(|d| + ε) |
+// | gain                   |         | factor of the emission |
+// | hot, body, halo        | linear  | colours at the surface, near it, and far from it |
+// | understep              |         | step, as a part of |d| |
+// | steps                  |         | shortest steps along the diagonal of the box |
+// | fade                   |         | part of the box within which the light fades towards the walls |
+// | jitter                 |         | how far samples begin at another place in each pixel |
+// | vignette, grain        |         | darkening of the corners; noise that is added |
+// | yaw, pitch, fov        | degrees | of the camera |
+// | distance               | world   | of the camera, 0: the box fills the view |
+// | background             | linear  | behind the light |
+//
+// Undefined and infinite values emit nothing, and a constant nothing or, where it is a distance, an even haze. By its
+// gradient a pole cannot be told from a zero, and glows too.
+
+struct View {
+    center: vec2f,     // world coordinates of the centre of the whole image
+    size: vec2f,       // whole image, pixels
+    tile: vec2f,       // pixel of the whole image at this tile's top-left corner
+    pixel: f32,        // world units per pixel
+    time: f32,         // seconds
+    samples: u32,      // supersamples per axis, >= 1
+    zero: u32,         // always 0, but the shader compiler does not know
+    tile_size: vec2u,  // this tile, pixels
+}
+
+struct Settings {
+    box: vec3f,
+    center: vec3f,
+    estimate: u32,
+    epsilon: f32,
+    falloff: u32,
+    gain: f32,
+    hot: vec3f,
+    body: vec3f,
+    halo: vec3f,
+    understep: f32,
+    steps: u32,
+    fade: f32,
+    jitter: f32,
+    vignette: f32,
+    grain: f32,
+    yaw: f32,
+    pitch: f32,
+    distance: f32,
+    fov: f32,
+    background: vec3f,
+}
+
+struct Ray {
+    origin: vec3f,
+    direction: vec3f,  // of length 1
+}
+
+struct Sight {
+    ray: Ray,
+    forward: vec3f,
+    slope: f32,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
+@group(0) @binding(2) var<uniform> settings: Settings;
+
+// (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
+fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
+
+fn is_finite(x: f32) -> bool { return false; }
+fn length3_safe(v: vec3f) -> f32 { return 0.0; }
+fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
+fn mean_glow(a: f32, b: f32, epsilon: f32, square: bool) -> f32 { return 0.0; }
+fn filmic(radiance: vec3f) -> vec3f { return vec3f(); }
+fn sample_phase(pixel: vec2f) -> f32 { return 0.0; }
+fn pixel_noise(pixel: vec2f, seed: u32) -> f32 { return 0.0; }
+
+// Distances are kept within this.
+const FARTHEST: f32 = 1e15;
+
+fn shortest_side() -> f32 {
+    return min(settings.box.x, min(settings.box.y, settings.box.z));
+}
+
+// The field as a distance, by its slope, which is 1 where it is one; FARTHEST where that is not known.
+fn distance_at(p: vec3f) -> f32 {
+    let jet = field_grad(p);
+    let directed = is_finite(jet.x) && is_finite(jet.y) && is_finite(jet.z);
+    if !is_finite(jet.w) || (settings.estimate == 0u && !directed) {
+        return FARTHEST;
+    }
+    let slope = select(length3_safe(jet.xyz), 1.0, settings.estimate == 1u);
+    return clamp(jet.w / max(slope, 1e-37), -FARTHEST, FARTHEST);
+}
+
+// Colour of the light at a distance from the surface.
+fn glow_colour(away: f32, epsilon: f32) -> vec3f {
+    let near = epsilon / (away + epsilon);
+    return mix(mix(settings.halo, settings.body, smoothstep(0.0, 0.5, near)), settings.hot, smoothstep(0.4, 1.0, near));
+}
+
+// How much light is left near the walls.
+fn faded(p: vec3f) -> f32 {
+    if settings.fade <= 0.0 {
+        return 1.0;
+    }
+    let inside = 1.0 - abs(p - settings.center) / settings.box;
+    let depth = smoothstep(vec3f(0.0), vec3f(settings.fade), inside);
+    return depth.x * depth.y * depth.z;
+}
+
+// Light of a ray, over its lengths in the box.
+fn glow_along(ray: Ray, span: vec2f, pixel: vec2f) -> vec3f {
+    let start = max(span.x, 0.0);
+    let extent = span.y - start;
+    let diagonal = 2.0 * length(settings.box);
+    let shortest = diagonal / f32(settings.steps);
+    let epsilon = settings.epsilon * shortest_side();
+    var light = vec3f();
+    var t = 0.0;
+    // length of the step before, and the field where it began
+    var before = vec2f();
+    // each step is at least the shortest one, but for the first
+    for (var k = view.zero; k < settings.steps + 3u; k++) {
+        let p = ray.origin + (start + t) * ray.direction;
+        let here = distance_at(p);
+        let reach = select(settings.understep * abs(here), 0.0, abs(here) >= FARTHEST);
+        var step = clamp(reach, shortest, max(0.04 * diagonal, shortest));
+        if k == 0u {
+            step *= mix(1.0, sample_phase(pixel), settings.jitter);
+        } else {
+            let middle = ray.origin + (start + t - 0.5 * before.x) * ray.direction;
+            let near = min(abs(before.y), abs(here));
+            let crossing = (before.y < 0.0) != (here < 0.0);
+            let colour = glow_colour(select(near, 0.0, crossing), epsilon);
+            light += colour * (mean_glow(before.y, here, epsilon, settings.falloff == 0u) * before.x * faded(middle));
+        }
+        if t >= extent {
+            break;
+        }
+        step = min(step, extent - t);
+        before = vec2f(step, here);
+        t = select(t + step, extent, step >= extent - t);
+    }
+    return light * settings.gain;
+}
+
+fn shade(pixel: vec2f) -> vec4f {
+    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
+    var light = vec3f();
+    if span.y > max(span.x, 0.0) {
+        light = glow_along(sight.ray, span, pixel);
+    }
+    let place = (pixel - 0.5 * view.size) / max(min(view.size.x, view.size.y), 1.0);
+    let corner = max(1.0 - settings.vignette * dot(place, place), 0.0);
+    let noise = settings.grain * (pixel_noise(pixel, u32(abs(view.time) * 24.0) & 0xffffu) - 0.5);
+    let colour = filmic(light * corner) + settings.background * corner + vec3f(noise);
+    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+}

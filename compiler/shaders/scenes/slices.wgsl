@@ -1,0 +1,210 @@
+// slices: a real function of space as a colour map with contour lines on planes in a box: three planes that stand still,
+// quiet, and one active slice across any axis, in full colour. The planes are opaque; the nearest is seen.
+//
+// Settings (see the record for ranges):
+// | box, center           | world   | half size and centre of the box |
+// | axis                  |         | normal of the active slice |
+// | position              |         | of the active slice: -1 and 1 where it leaves the box, 0 in the middle |
+// | sweep, period         | seconds | swing of the position |
+// | reference             |         | 0 the far walls, 1 three planes, 2 none |
+// | planes                |         | where the three planes are, -1..1 |
+// | reference_strength    |         | of colours and lines of walls and planes |
+// | color_scale, spacing  | value   | of colours; between lines, 0: a quarter of color_scale |
+// | line_width            | pixels  | of contour lines |
+// | zero_width            | pixels  | of the line f = 0 |
+// | line_opacity, major   |         | of contour lines; every how many one is stronger |
+// | ink                   | linear  | colour of contour lines |
+// | grid                  | world   | between lines of the grid, 0: automatic |
+// | grid_opacity          |         | of the grid |
+// | axis_width            | pixels  | of the lines where a coordinate is 0 |
+// | edge_width            | pixels  | of the box's edges |
+// | yaw, pitch, fov       | degrees | of the camera |
+// | distance              | world   | of the camera, 0: the box fills the view |
+// | background            | linear  | colour of the horizon |
+//
+// Undefined values (NaN) are a grey hatch, infinite ones the end colours with a hatch of the other slope. A constant
+// has one colour and no lines.
+
+struct View {
+    center: vec2f,     // world coordinates of the centre of the whole image
+    size: vec2f,       // whole image, pixels
+    tile: vec2f,       // pixel of the whole image at this tile's top-left corner
+    pixel: f32,        // world units per pixel
+    time: f32,         // seconds
+    samples: u32,      // supersamples per axis, >= 1
+    zero: u32,         // always 0, but the shader compiler does not know
+    tile_size: vec2u,  // this tile, pixels
+}
+
+struct Settings {
+    box: vec3f,
+    center: vec3f,
+    axis: vec3f,
+    position: f32,
+    planes: vec3f,
+    sweep: f32,
+    period: f32,
+    reference: u32,
+    reference_strength: f32,
+    color_scale: f32,
+    spacing: f32,
+    line_width: f32,
+    zero_width: f32,
+    line_opacity: f32,
+    major: u32,
+    ink: vec3f,
+    grid: f32,
+    grid_opacity: f32,
+    axis_width: f32,
+    edge_width: f32,
+    yaw: f32,
+    pitch: f32,
+    distance: f32,
+    fov: f32,
+    background: vec3f,
+}
+
+struct Ray {
+    origin: vec3f,
+    direction: vec3f,  // of length 1
+}
+
+struct Sight {
+    ray: Ray,
+    forward: vec3f,
+    slope: f32,
+}
+
+struct Contours {
+    spacing: f32,
+    width: f32,
+    zero_width: f32,
+    opacity: f32,
+    major: u32,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
+@group(0) @binding(2) var<uniform> settings: Settings;
+
+// (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
+fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
+
+fn direction_or(v: vec3f, fallback: vec3f) -> vec3f { return vec3f(); }
+fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 { return 0.0; }
+fn plane_distance(ray: Ray, n: vec3f, offset: f32) -> f32 { return 0.0; }
+fn plane_offset(n: vec3f, center: vec3f, half_size: vec3f, position: f32) -> f32 { return 0.0; }
+fn swept_position(position: f32, sweep: f32, period: f32) -> f32 { return 0.0; }
+fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
+fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
+fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 { return 0.0; }
+fn coordinate_lines(sight: Sight, t: f32, n: vec3f, spacing: f32, width: f32) -> f32 { return 0.0; }
+fn axis_lines(sight: Sight, t: f32, n: vec3f, width: f32) -> vec4f { return vec4f(); }
+fn unit_axis(k: u32) -> vec3f { return vec3f(); }
+fn round_spacing(x: f32) -> f32 { return 0.0; }
+fn stage_colour(ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec3f { return vec3f(); }
+fn contour_colour(value: f32, rate: f32, palette: u32, scale: f32, contours: Contours, ink: vec3f, pixel: vec2f) -> vec3f { return vec3f(); }
+
+const PAPER: vec3f = vec3f(0.86, 0.86, 0.85);
+const EDGE: vec3f = vec3f(0.012, 0.014, 0.02);
+
+// A plane that a ray meets.
+struct Slice {
+    t: f32,
+    normal: vec3f,
+    chosen: bool,
+    met: bool,
+}
+
+fn color_scale() -> f32 {
+    return select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
+}
+
+// Of the active slice, or of what stands still.
+fn contours(chosen: bool) -> Contours {
+    let spacing = max(select(0.25 * color_scale(), settings.spacing, settings.spacing > 0.0), 1e-37);
+    if chosen {
+        return Contours(spacing, settings.line_width, settings.zero_width, settings.line_opacity, settings.major);
+    }
+    return Contours(4.0 * spacing, settings.line_width, 0.75 * settings.zero_width, settings.line_opacity, 0u);
+}
+
+// The k-th plane: 0 the active one, then those across x, y and z.
+fn slice_at(k: u32, sight: Sight, span: vec2f) -> Slice {
+    if k == 0u {
+        let n = direction_or(settings.axis, vec3f(0.0, 0.0, 1.0));
+        let position = swept_position(settings.position, settings.sweep, settings.period);
+        return met_slice(sight, n, position, span, true);
+    }
+    let n = unit_axis(k - 1u);
+    let from_center = dot(sight.ray.origin - settings.center, n);
+    let far_wall = select(1.0, -1.0, from_center > 0.0);
+    return met_slice(sight, n, select(far_wall, settings.planes[k - 1u], settings.reference == 1u), span, false);
+}
+
+fn met_slice(sight: Sight, n: vec3f, position: f32, span: vec2f, chosen: bool) -> Slice {
+    let t = plane_distance(sight.ray, n, plane_offset(n, settings.center, settings.box, position));
+    let slack = 1e-5 * abs(span.y);
+    return Slice(t, n, chosen, t > 0.0 && t >= span.x - slack && t <= span.y + slack && span.x <= span.y);
+}
+
+// The nearest plane; of two at the same distance the active one.
+fn nearest_slice(sight: Sight, span: vec2f) -> Slice {
+    var nearest = slice_at(0u, sight, span);
+    let count = select(4u, 1u, settings.reference == 2u);
+    for (var k = 1u; k < count; k++) {
+        let slice = slice_at(k, sight, span);
+        let tie = 1e-6 * abs(nearest.t);
+        if slice.met && (!nearest.met || slice.t < nearest.t - tie) {
+            nearest = slice;
+        }
+    }
+    return nearest;
+}
+
+// What a plane shows: the picture of f, and the grid where it stands still.
+fn slice_colour(slice: Slice, sight: Sight, pixel: vec2f) -> vec3f {
+    let jet = field_grad(sight.ray.origin + slice.t * sight.ray.direction);
+    let rate = screen_rate(sight, slice.t, slice.normal, jet.xyz);
+    let colour = contour_colour(jet.w, rate, 0u, color_scale(), contours(slice.chosen), settings.ink, pixel);
+    if slice.chosen {
+        return colour;
+    }
+    return gridded(mix(PAPER, colour, settings.reference_strength), slice.t, slice.normal, sight);
+}
+
+// Coordinate lines on a colour.
+fn gridded(colour: vec3f, t: f32, n: vec3f, sight: Sight) -> vec3f {
+    let extent = max(settings.box.x, max(settings.box.y, settings.box.z));
+    let spacing = select(round_spacing(0.51 * extent), settings.grid, settings.grid > 0.0);
+    let lines = mix(colour, EDGE, settings.grid_opacity * coordinate_lines(sight, t, n, spacing, 1.0));
+    let axes = axis_lines(sight, t, n, settings.axis_width);
+    return mix(lines, axes.rgb, 0.85 * axes.a);
+}
+
+// The edges at the face of the box at distance t, on a colour.
+fn edged(colour: vec3f, t: f32, strength: f32, sight: Sight) -> vec3f {
+    let n = box_normal(sight.ray.origin + t * sight.ray.direction, settings.center, settings.box);
+    return mix(colour, EDGE, strength * box_edges(sight, t, n, settings.center, settings.box, settings.edge_width));
+}
+
+fn shade(pixel: vec2f) -> vec4f {
+    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
+    var colour = stage_colour(sight.ray, settings.center, settings.box, settings.background);
+    if span.y <= max(span.x, 0.0) {
+        return vec4f(colour, 1.0);
+    }
+    let slice = nearest_slice(sight, span);
+    if slice.met {
+        colour = slice_colour(slice, sight, pixel);
+    }
+    if !slice.met || slice.t >= span.y * (1.0 - 1e-5) {
+        colour = edged(colour, span.y, 0.5, sight);
+    }
+    if span.x > 0.0 {
+        colour = edged(colour, span.x, 0.8, sight);
+    }
+    return vec4f(colour, 1.0);
+}

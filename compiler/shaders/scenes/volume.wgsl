@@ -1,0 +1,171 @@
+// volume: f as a luminous gas in a box, denser and brighter where |f| is larger, in two colours by the sign. Emission
+// and absorption along each ray converge to their integral; the opacity of a stretch is right for any length.
+//
+// Settings (see the record for ranges):
+// | box, center            | world    | half size and centre of the box |
+// | color_scale            | value    | |f| of extinction `density` |
+// | power                  |          | extinction is density (|f|/color_scale)^power |
+// | density                |          | optical depth of half the shortest side of the box at |f| = color_scale |
+// | signs                  |          | 0 both, 1 positive values alone, 2 negative values alone |
+// | positive, negative     | linear   | emitted colours of both signs |
+// | core                   |          | how far large values are white |
+// | lighting               |          | how far the gradient's direction modulates the emission |
+// | exposure, tone, gamma  |          | of the radiance; 0 Reinhard, 1 none; exponent 1/gamma after that |
+// | jitter                 |          | how far stretches begin at another place in each sample |
+// | steps                  |          | stretches along the diagonal of the box |
+// | yaw, pitch, fov        | degrees  | of the camera |
+// | distance               | world    | of the camera, 0: the box fills the view |
+// | light_yaw, light_pitch | degrees  | of the light, from the camera's yaw |
+// | background, edge_width | linear   | behind the box; pixels, of its edges |
+//
+// Where f is undefined the box is empty; infinite values are as dense as the largest. A constant is an even fog.
+
+struct View {
+    center: vec2f,     // world coordinates of the centre of the whole image
+    size: vec2f,       // whole image, pixels
+    tile: vec2f,       // pixel of the whole image at this tile's top-left corner
+    pixel: f32,        // world units per pixel
+    time: f32,         // seconds
+    samples: u32,      // supersamples per axis, >= 1
+    zero: u32,         // always 0, but the shader compiler does not know
+    tile_size: vec2u,  // this tile, pixels
+}
+
+struct Settings {
+    box: vec3f,
+    center: vec3f,
+    color_scale: f32,
+    power: f32,
+    density: f32,
+    signs: u32,
+    positive: vec3f,
+    negative: vec3f,
+    core: f32,
+    lighting: f32,
+    exposure: f32,
+    tone: u32,
+    gamma: f32,
+    jitter: f32,
+    steps: u32,
+    yaw: f32,
+    pitch: f32,
+    distance: f32,
+    fov: f32,
+    light_yaw: f32,
+    light_pitch: f32,
+    background: vec3f,
+    edge_width: f32,
+}
+
+struct Ray {
+    origin: vec3f,
+    direction: vec3f,  // of length 1
+}
+
+struct Sight {
+    ray: Ray,
+    forward: vec3f,
+    slope: f32,
+}
+
+struct Medium {
+    scale: f32,
+    power: f32,
+    density: f32,
+    signs: u32,
+    positive: vec3f,
+    negative: vec3f,
+    core: f32,
+    lighting: f32,
+    light: vec3f,
+}
+
+struct Matter {
+    colour: vec3f,
+    extinction: f32,
+}
+
+struct Seen {
+    light: vec3f,
+    through: f32,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
+@group(0) @binding(2) var<uniform> settings: Settings;
+
+// (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
+fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
+
+fn direction_from_angles(yaw: f32, pitch: f32) -> vec3f { return vec3f(); }
+fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
+fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
+fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 { return 0.0; }
+fn matter_of(jet: vec4f, medium: Medium) -> Matter { return Matter(); }
+fn seen_nothing() -> Seen { return Seen(); }
+fn seen_through(seen: Seen, matter: Matter, length: f32) -> Seen { return Seen(); }
+fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
+fn sample_phase(pixel: vec2f) -> f32 { return 0.0; }
+fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f { return vec3f(); }
+
+const DEGREE: f32 = 0.017453292519943295;
+const EDGE: vec3f = vec3f(0.42, 0.45, 0.50);
+// What has to come through for more of a ray to be looked at.
+const THINNEST: f32 = 0.0005;
+
+fn color_scale() -> f32 {
+    return select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
+}
+
+fn medium() -> Medium {
+    return Medium(
+        color_scale(),
+        settings.power,
+        settings.density / min(settings.box.x, min(settings.box.y, settings.box.z)),
+        settings.signs,
+        settings.positive,
+        settings.negative,
+        settings.core,
+        settings.lighting,
+        direction_from_angles((settings.yaw + settings.light_yaw) * DEGREE, settings.light_pitch * DEGREE),
+    );
+}
+
+// The edges at the face of the box at distance t, on a colour.
+fn edged(colour: vec3f, sight: Sight, t: f32, strength: f32) -> vec3f {
+    let n = box_normal(sight.ray.origin + t * sight.ray.direction, settings.center, settings.box);
+    return mix(colour, EDGE, strength * box_edges(sight, t, n, settings.center, settings.box, settings.edge_width));
+}
+
+// Radiance of the medium on a ray in the box, and what comes through, by the midpoint rule in each stretch.
+fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
+    let medium = medium();
+    let start = max(span.x, 0.0);
+    let extent = span.y - start;
+    let diagonal = 2.0 * length(settings.box);
+    let count = max(u32(ceil(extent / diagonal * f32(settings.steps))), 1u);
+    let phase = mix(0.5, sample_phase(pixel), settings.jitter);
+    var seen = seen_nothing();
+    for (var k = view.zero; k <= count && seen.through > THINNEST; k++) {
+        let stretch = stretch_at(k, count, phase, extent);
+        let jet = field_grad(ray.origin + (start + 0.5 * (stretch.x + stretch.y)) * ray.direction);
+        seen = seen_through(seen, matter_of(jet, medium), stretch.y - stretch.x);
+    }
+    return seen;
+}
+
+fn shade(pixel: vec2f) -> vec4f {
+    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
+    if span.y <= max(span.x, 0.0) {
+        return vec4f(settings.background, 1.0);
+    }
+    let seen = seen_in_box(sight.ray, span, pixel);
+    let behind = edged(settings.background, sight, span.y, 0.4);
+    var colour = displayed(seen.light, settings.exposure, settings.tone, settings.gamma) + seen.through * behind;
+    if span.x > 0.0 {
+        colour = edged(colour, sight, span.x, 0.55);
+    }
+    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+}

@@ -1,0 +1,262 @@
+// volumecut: f as a luminous gas in a box, as in `volume`, cut open by a plane; on the cut the values by colour and
+// contour lines. Kept is what lies on the side of the plane that its normal points away from.
+//
+// Settings (see the record for ranges):
+// | box, center            | world    | half size and centre of the box |
+// | normal                 |          | of the plane, towards what is cut away |
+// | position               |          | of the plane: -1 and 1 where it leaves the box, 0 in the middle |
+// | sweep, period          | seconds  | swing of the position |
+// | color_scale            | value    | |f| of extinction `density` |
+// | power                  |          | extinction is density (|f|/color_scale)^power |
+// | density                |          | optical depth of half the shortest side of the box at |f| = color_scale |
+// | signs                  |          | 0 both, 1 positive values alone, 2 negative values alone |
+// | positive, negative     | linear   | emitted colours of both signs |
+// | core                   |          | how far large values are white |
+// | lighting               |          | how far the gradient's direction modulates the emission |
+// | exposure, tone, gamma  |          | of the radiance; 0 Reinhard, 1 none; exponent 1/gamma after that |
+// | jitter                 |          | how far stretches begin at another place in each sample |
+// | steps                  |          | stretches along the diagonal of the box |
+// | contour_spacing        | value    | between lines on the cut, 0: a quarter of color_scale |
+// | line_width, zero_width | pixels   | of lines on the cut, and of the line f = 0 |
+// | line_opacity, ink      | linear   | of lines on the cut |
+// | cut_opacity            |          | of the colours on the cut |
+// | yaw, pitch, fov        | degrees  | of the camera |
+// | distance               | world    | of the camera, 0: the box fills the view |
+// | light_yaw, light_pitch | degrees  | of the light, from the camera's yaw |
+// | background, edge_width | linear   | behind the box; pixels, of its edges |
+//
+// Where f is undefined the box is empty; infinite values are as dense as the largest. A constant is an even fog.
+
+struct View {
+    center: vec2f,     // world coordinates of the centre of the whole image
+    size: vec2f,       // whole image, pixels
+    tile: vec2f,       // pixel of the whole image at this tile's top-left corner
+    pixel: f32,        // world units per pixel
+    time: f32,         // seconds
+    samples: u32,      // supersamples per axis, >= 1
+    zero: u32,         // always 0, but the shader compiler does not know
+    tile_size: vec2u,  // this tile, pixels
+}
+
+struct Settings {
+    box: vec3f,
+    center: vec3f,
+    normal: vec3f,
+    position: f32,
+    ink: vec3f,
+    sweep: f32,
+    period: f32,
+    color_scale: f32,
+    power: f32,
+    density: f32,
+    signs: u32,
+    positive: vec3f,
+    negative: vec3f,
+    core: f32,
+    lighting: f32,
+    exposure: f32,
+    tone: u32,
+    gamma: f32,
+    jitter: f32,
+    steps: u32,
+    contour_spacing: f32,
+    line_width: f32,
+    zero_width: f32,
+    line_opacity: f32,
+    cut_opacity: f32,
+    yaw: f32,
+    pitch: f32,
+    distance: f32,
+    fov: f32,
+    light_yaw: f32,
+    light_pitch: f32,
+    background: vec3f,
+    edge_width: f32,
+}
+
+struct Ray {
+    origin: vec3f,
+    direction: vec3f,  // of length 1
+}
+
+struct Sight {
+    ray: Ray,
+    forward: vec3f,
+    slope: f32,
+}
+
+struct Medium {
+    scale: f32,
+    power: f32,
+    density: f32,
+    signs: u32,
+    positive: vec3f,
+    negative: vec3f,
+    core: f32,
+    lighting: f32,
+    light: vec3f,
+}
+
+struct Matter {
+    colour: vec3f,
+    extinction: f32,
+}
+
+struct Seen {
+    light: vec3f,
+    through: f32,
+}
+
+struct Kept {
+    start: f32,
+    end: f32,
+    cut_first: bool,
+    cut_last: bool,
+}
+
+struct Contours {
+    spacing: f32,
+    width: f32,
+    zero_width: f32,
+    opacity: f32,
+    major: u32,
+}
+
+struct Layer {
+    colour: vec3f,
+    opacity: f32,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
+@group(0) @binding(2) var<uniform> settings: Settings;
+
+// (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
+fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
+
+fn direction_from_angles(yaw: f32, pitch: f32) -> vec3f { return vec3f(); }
+fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
+fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
+fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 { return 0.0; }
+fn matter_of(jet: vec4f, medium: Medium) -> Matter { return Matter(); }
+fn seen_nothing() -> Seen { return Seen(); }
+fn seen_through(seen: Seen, matter: Matter, length: f32) -> Seen { return Seen(); }
+fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
+fn sample_phase(pixel: vec2f) -> f32 { return 0.0; }
+fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f { return vec3f(); }
+fn is_nan(x: f32) -> bool { return false; }
+fn direction_or(v: vec3f, fallback: vec3f) -> vec3f { return vec3f(); }
+fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 { return 0.0; }
+fn plane_offset(n: vec3f, center: vec3f, half_size: vec3f, position: f32) -> f32 { return 0.0; }
+fn swept_position(position: f32, sweep: f32, period: f32) -> f32 { return 0.0; }
+fn kept_part(ray: Ray, span: vec2f, n: vec3f, offset: f32) -> Kept { return Kept(); }
+fn saturate_value(value: f32, scale: f32) -> f32 { return 0.0; }
+fn contour_opacity(value: f32, rate: f32, contours: Contours) -> f32 { return 0.0; }
+fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
+fn layer_over(front: Layer, back: Layer) -> Layer { return Layer(); }
+
+const DEGREE: f32 = 0.017453292519943295;
+const EDGE: vec3f = vec3f(0.42, 0.45, 0.50);
+// What has to come through for more of a ray to be looked at.
+const THINNEST: f32 = 0.0005;
+
+fn color_scale() -> f32 {
+    return select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
+}
+
+fn medium() -> Medium {
+    return Medium(
+        color_scale(),
+        settings.power,
+        settings.density / min(settings.box.x, min(settings.box.y, settings.box.z)),
+        settings.signs,
+        settings.positive,
+        settings.negative,
+        settings.core,
+        settings.lighting,
+        direction_from_angles((settings.yaw + settings.light_yaw) * DEGREE, settings.light_pitch * DEGREE),
+    );
+}
+
+// The edges at the face of the box at distance t, on a colour.
+fn edged(colour: vec3f, sight: Sight, t: f32, strength: f32) -> vec3f {
+    let n = box_normal(sight.ray.origin + t * sight.ray.direction, settings.center, settings.box);
+    return mix(colour, EDGE, strength * box_edges(sight, t, n, settings.center, settings.box, settings.edge_width));
+}
+
+// The plane's normal, and its offset.
+fn cut_plane() -> vec4f {
+    let n = direction_or(settings.normal, vec3f(1.0, 0.0, 0.0));
+    let position = swept_position(settings.position, settings.sweep, settings.period);
+    return vec4f(n, plane_offset(n, settings.center, settings.box, position));
+}
+
+// The cut at distance t: the medium's colours by value, lines, and the edges of the cut.
+fn cut_layer(jet: vec4f, t: f32, sight: Sight, n: vec3f, pixel: vec2f) -> Layer {
+    let edges = Layer(EDGE, 0.8 * box_edges(sight, t, n, settings.center, settings.box, settings.edge_width));
+    if is_nan(jet.w) {
+        return layer_over(edges, Layer(0.35 * undefined_colour(pixel), settings.cut_opacity));
+    }
+    let size = saturate_value(jet.w, color_scale());
+    let fill = abs(size) * select(settings.positive, settings.negative, size < 0.0);
+    let rate = screen_rate(sight, t, n, jet.xyz);
+    let spacing = max(select(0.25 * color_scale(), settings.contour_spacing, settings.contour_spacing > 0.0), 1e-37);
+    let contours = Contours(spacing, settings.line_width, settings.zero_width, settings.line_opacity, 0u);
+    let lines = Layer(settings.ink, select(contour_opacity(jet.w, rate, contours), 0.0, rate < 0.0));
+    return layer_over(edges, layer_over(lines, Layer(fill, settings.cut_opacity)));
+}
+
+// What a ray meets in the part of the box that is kept.
+struct Met {
+    seen: Seen,   // the medium
+    cut: Layer,   // in front of it or behind it
+}
+
+// The cut first, where there is one, then the medium by the midpoint rule in each stretch.
+fn met_in_part(sight: Sight, part: Kept, n: vec3f, pixel: vec2f) -> Met {
+    let medium = medium();
+    let extent = part.end - part.start;
+    let diagonal = 2.0 * length(settings.box);
+    let count = max(u32(ceil(extent / diagonal * f32(settings.steps))), 1u);
+    let phase = mix(0.5, sample_phase(pixel), settings.jitter);
+    let is_cut = part.cut_first || part.cut_last;
+    let cut_t = select(part.end, part.start, part.cut_first);
+    var met = Met(seen_nothing(), Layer(vec3f(), 0.0));
+    for (var k = view.zero + select(1u, 0u, is_cut); k <= count + 1u && met.seen.through > THINNEST; k++) {
+        let stretch = part.start + stretch_at(max(k, 1u) - 1u, count, phase, extent);
+        let t = select(0.5 * (stretch.x + stretch.y), cut_t, k == 0u);
+        let jet = field_grad(sight.ray.origin + t * sight.ray.direction);
+        if k == 0u {
+            met.cut = cut_layer(jet, t, sight, n, pixel);
+        } else {
+            met.seen = seen_through(met.seen, matter_of(jet, medium), stretch.y - stretch.x);
+        }
+    }
+    return met;
+}
+
+fn shade(pixel: vec2f) -> vec4f {
+    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
+    if span.y <= max(span.x, 0.0) {
+        return vec4f(settings.background, 1.0);
+    }
+    let plane = cut_plane();
+    let part = kept_part(sight.ray, vec2f(max(span.x, 0.0), span.y), plane.xyz, plane.w);
+    var colour = edged(settings.background, sight, span.y, 0.4);
+    if part.end > part.start {
+        let met = met_in_part(sight, part, plane.xyz, pixel);
+        if part.cut_last {
+            colour = mix(colour, met.cut.colour, met.cut.opacity);
+        }
+        colour = displayed(met.seen.light, settings.exposure, settings.tone, settings.gamma) + met.seen.through * colour;
+        if part.cut_first {
+            colour = mix(colour, met.cut.colour, met.cut.opacity);
+        }
+    }
+    if span.x > 0.0 {
+        colour = edged(colour, sight, span.x, 0.55);
+    }
+    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+}

@@ -1,0 +1,81 @@
+// A medium that emits and absorbs light, made of the values of a function. Along a ray its radiance is
+// L = ∫ c(t) σ(t) T(t) dt with the transmittance T(t) = exp(-∫ σ) (N. Max, "Optical models for direct volume rendering",
+// IEEE TVCG 1, 1995): the transfer function gives colour c and extinction σ of each value.
+
+struct Medium {
+    scale: f32,        // |f| of extinction `density`
+    power: f32,        // extinction is density (|f|/scale)^power
+    density: f32,      // per world unit
+    signs: u32,        // 0 both, 1 positive values alone, 2 negative values alone
+    positive: vec3f,   // colour of f > 0, emitted at |f| = scale; twice as bright for large values
+    negative: vec3f,   // colour of f < 0
+    core: f32,         // how far large values are white
+    lighting: f32,     // how far light and shade modulate the emission
+    light: vec3f,      // towards the light
+}
+
+// Of one point: emitted colour, and extinction per world unit.
+struct Matter {
+    colour: vec3f,
+    extinction: f32,
+}
+
+// Ratios |f|/scale above this count as this.
+const DENSEST_RATIO: f32 = 1e6;
+
+// What a value with its gradient is made of. Undefined values are empty; infinite ones are as the largest.
+fn matter_of(jet: vec4f, medium: Medium) -> Matter {
+    let below = jet.w < 0.0;
+    if is_nan(jet.w) || (medium.signs == 1u && below) || (medium.signs == 2u && !below) {
+        return Matter(vec3f(), 0.0);
+    }
+    let x = min(abs(jet.w) / medium.scale, DENSEST_RATIO);
+    let extinction = medium.density * pow(max(x, 1e-30), medium.power);
+    let own = select(medium.positive, medium.negative, below);
+    let level = x / (1.0 + x);
+    let colour = 2.0 * level * mix(own, vec3f(1.0), medium.core * level);
+    return Matter(colour * emission_shade(select(jet.xyz, -jet.xyz, below), medium), extinction);
+}
+
+// Light and shade of an emitting medium by the direction in which its density falls, as if that were a normal: where
+// `uphill` has no direction there is none.
+fn emission_shade(uphill: vec3f, medium: Medium) -> f32 {
+    let n = direction_or(-uphill, vec3f());
+    let directed = dot(n, n) > 0.5;
+    return select(1.0, mix(1.0, 0.25 + 1.15 * wrap_diffuse(n, medium.light, 0.5), medium.lighting), directed);
+}
+
+// 1 - exp(-x) for x >= 0, without cancellation.
+fn absorbed_part(x: f32) -> f32 {
+    return select(1.0 - exp(-x), x * (1.0 - x * (0.5 - x / 6.0)), x < 0.02);
+}
+
+// A stretch of uniform matter behind what has been seen: right for any length.
+fn seen_through(seen: Seen, matter: Matter, length: f32) -> Seen {
+    let depth = min(matter.extinction * length, 80.0);
+    let light = seen.light + seen.through * absorbed_part(depth) * matter.colour;
+    return Seen(light, seen.through * exp(-depth));
+}
+
+// A way of this extent is cut into `count` stretches of equal length whose borders are moved by a part of it, `phase` in
+// 0..1, and one more for what remains: the first and the last are shorter. Begin and end of the k-th, 0 ≤ k ≤ count.
+fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f {
+    let place = (f32(k) + vec2f(phase - 1.0, phase)) * (extent / f32(count));
+    return clamp(place, vec2f(0.0), vec2f(extent));
+}
+
+// A number in (0, 1) for each sample of each pixel, evenly spread over neighbours: the rank-1 lattice of the plastic
+// number (M. Roberts, 2018) in 32-bit fixed point, with other axes than that of the dither.
+fn sample_phase(pixel: vec2f) -> f32 {
+    let place = vec2u(max(floor(pixel * f32(max(view.samples, 1u))), vec2f(0.0)));
+    let lattice = place.x * 2447445414u + place.y * 3242174889u;
+    return (f32(lattice >> 8u) + 0.5) / 16777216.0;
+}
+
+// Radiance to display light: exposure, then Reinhard's curve c/(1 + c) (E. Reinhard et al., "Photographic tone
+// reproduction for digital images", SIGGRAPH 2002, equation 3) where `tone` is 0, then the exponent 1/gamma.
+fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f {
+    let exposed = max(radiance * exposure, vec3f(0.0));
+    let curved = select(exposed, exposed / (1.0 + exposed), tone == 0u);
+    return pow(max(min(curved, vec3f(1.0)), vec3f(1e-20)), vec3f(1.0 / gamma));
+}

@@ -1,0 +1,100 @@
+// Families of level sets in a box: the colour and opacity of each layer that a ray meets, to be composited from front to
+// back (T. Porter and T. Duff, "Compositing digital images", SIGGRAPH 1984).
+
+// How the layers look.
+struct Shells {
+    family: Family,
+    opaque_level: i32,        // the one that is highlighted
+    opaque_opacity: f32,
+    ghost_opacity: f32,       // of the others, seen face on
+    lighting: f32,            // 0: all colours as they are
+    light: vec3f,             // towards it
+    surroundings: vec3f,      // colour of the horizon
+}
+
+struct Layer {
+    colour: vec3f,
+    opacity: f32,
+}
+
+// What has been seen so far of a ray: light, and the part of what lies behind that comes through.
+struct Seen {
+    light: vec3f,
+    through: f32,
+}
+
+const SHELL_INK: vec3f = vec3f(0.012, 0.014, 0.02);
+
+fn seen_nothing() -> Seen {
+    return Seen(vec3f(), 1.0);
+}
+
+// A layer behind all that has been seen.
+fn seen_behind(seen: Seen, layer: Layer) -> Seen {
+    let opacity = clamp(layer.opacity, 0.0, 1.0);
+    return Seen(seen.light + seen.through * opacity * layer.colour, seen.through * (1.0 - opacity));
+}
+
+// A family of `count` levels around `middle`, and which of them is highlighted: the `number`-th from the lowest, for 0 the
+// one in the middle.
+fn family_around(middle: f32, spacing: f32, count: u32) -> Family {
+    return Family(middle - 0.5 * f32(count - 1u) * spacing, spacing, count);
+}
+
+fn highlighted_level(number: u32, count: u32) -> i32 {
+    return select(i32(min(number, count)) - 1, i32((count - 1u) / 2u), number == 0u);
+}
+
+// Blue for the lowest, white in the middle, red for the highest.
+fn shell_colour(level: i32, count: u32) -> vec3f {
+    let reach = max(0.5 * f32(count - 1u), 0.5);
+    return diverging_ramp(0.85 * (f32(level) - 0.5 * f32(count - 1u)) / reach);
+}
+
+// A level set where the ray meets it. The side of smaller values is paler. A translucent shell of constant thickness is
+// the more opaque the more it is seen from the side: 1 - (1 - opacity)^(1/cos), up to a cosine of 1/8.
+fn shell_layer(level: i32, touching: bool, gradient: vec3f, direction: vec3f, shells: Shells) -> Layer {
+    let uphill = direction_or(gradient, -direction);
+    let outside = dot(uphill, direction) <= 0.0;
+    let n = select(-uphill, uphill, outside);
+    let own = shell_colour(level, shells.family.count);
+    let colour = select(mix(own, vec3f(1.0), 0.3), own, outside || touching);
+    // white paint reflects four fifths
+    let lit = lit_colour(0.8 * colour, n, shells.light, -direction, shells.surroundings);
+    var opacity = shells.opaque_opacity;
+    if level != shells.opaque_level {
+        let slant = max(-dot(n, direction), 0.125);
+        opacity = 1.0 - pow(max(1.0 - shells.ghost_opacity, 0.0), 1.0 / slant);
+    }
+    return Layer(mix(colour, lit, shells.lighting), opacity);
+}
+
+// A wall of the box: on the far one a tint by value, on both a line for each level. `rate` is the change of value per
+// pixel, negative where it is not known.
+fn shell_wall(value: f32, rate: f32, behind: bool, width: f32, shells: Shells, pixel: vec2f) -> Layer {
+    if is_nan(value) {
+        return Layer(vec3f(0.45), select(0.12, 0.30, behind) * hatch(pixel, 1.0, 7.0, 0.3, sample_window()));
+    }
+    let family = shells.family;
+    let count = f32(family.count);
+    let u = clamp((value - family.lowest) / family.spacing, -1e9, 1e9);
+    let tint = diverging_ramp(clamp((2.0 * u - count + 1.0) / max(count, 2.0), -1.0, 1.0));
+    let wall = Layer(mix(tint, vec3f(1.0), 0.25), select(0.0, 0.30, behind));
+    if rate <= 0.0 || u < -0.5 || u > count - 0.5 {
+        return wall;
+    }
+    let own = shell_colour(i32(clamp(floor(u + 0.5), 0.0, count - 1.0)), family.count);
+    let ink = select(0.55, 0.9, behind) * even_lines(u, min(rate / family.spacing, 1e9), width);
+    return layer_over(Layer(mix(0.35 * own, SHELL_INK, 0.2), ink), wall);
+}
+
+// One layer in front of another, as one.
+fn layer_over(front: Layer, back: Layer) -> Layer {
+    let opacity = front.opacity + back.opacity * (1.0 - front.opacity);
+    return Layer(mix(back.colour, front.colour, front.opacity / max(opacity, 1e-6)), opacity);
+}
+
+// The edges of the box at the point of one of its faces at distance t.
+fn edge_layer(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32, behind: bool) -> Layer {
+    return Layer(SHELL_INK, select(0.8, 0.6, behind) * box_edges(sight, t, n, center, half_size, width));
+}

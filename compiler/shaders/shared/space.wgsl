@@ -1,0 +1,176 @@
+// Scenes of space: what an orbiting camera sees of a box, planes in it, and lines on them that are as wide on the screen
+// as they are said to be.
+
+// What is seen through a point of the image.
+struct Sight {
+    ray: Ray,
+    forward: vec3f,  // the way the camera looks, of length 1
+    slope: f32,      // tangent of the angle that a pixel in the middle of the image spans
+}
+
+// How far away a box of this half size fills a field of view of `fov` radians.
+fn fitting_distance(half_size: vec3f, fov: f32) -> f32 {
+    return 0.98 * length(half_size) / sin(0.5 * fov);
+}
+
+// The camera of the space scenes' settings, angles in degrees; `distance` 0: the box fills the view.
+fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight {
+    let degree = 0.017453292519943295;
+    let field = clamp(fov, 1.0, 120.0) * degree;
+    let up = clamp(pitch, -89.0, 89.0) * degree;
+    let away = select(fitting_distance(half_size, field), distance, distance > 0.0);
+    let ray = orbit_ray(pixel, view.size, center, yaw * degree, up, away, field);
+    return Sight(ray, -direction_from_angles(yaw * degree, up), slope_per_pixel(view.size, field));
+}
+
+// Change per pixel, in the direction in which it changes most on the screen, of a function with this gradient on the
+// plane with normal n that the sight meets at distance t. It is exact in perspective: with pixels q and p(q) the point
+// of the plane, ∂p/∂q = depth slope (R - d (n·R)/(n·d)) for the image's axes R, so that the function changes by R·h with
+// h = ∇f - n (∇f·d)/(n·d). Kept within 1e37; negative where the gradient is undefined.
+fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 {
+    if is_nan(gradient.x) || is_nan(gradient.y) || is_nan(gradient.z) {
+        return -1.0;
+    }
+    let size = max(abs(gradient.x), max(abs(gradient.y), abs(gradient.z)));
+    if size == 0.0 {
+        return 0.0;
+    }
+    if is_inf(size) {
+        return 1e37;
+    }
+    let d = sight.ray.direction;
+    let g = gradient / size;
+    let across = dot(n, d);
+    let tilt = select(across, select(1e-6, -1e-6, across < 0.0), abs(across) < 1e-6);
+    let h = g - n * (dot(g, d) / tilt);
+    let flat = h - sight.forward * dot(h, sight.forward);
+    let rate = length(flat) * (t * dot(d, sight.forward) * sight.slope);
+    return rate * min(size, 1e37 / max(rate, 1.0));
+}
+
+// Distance along a ray to the plane n·p = offset; negative where they do not meet.
+fn plane_distance(ray: Ray, n: vec3f, offset: f32) -> f32 {
+    let rate = dot(n, ray.direction);
+    let t = (offset - dot(n, ray.origin)) / select(rate, 1e-20, rate == 0.0);
+    return select(t, -1.0, rate == 0.0);
+}
+
+// A plane through a box: `position` from -1, where it touches the box's far corner, over 0, through its centre, to 1.
+// Returned as its offset n·p.
+fn plane_offset(n: vec3f, center: vec3f, half_size: vec3f, position: f32) -> f32 {
+    return dot(n, center) + position * dot(abs(n), half_size);
+}
+
+// The part of a ray's way through a box that is on the side n·p ≤ offset of a plane.
+struct Kept {
+    start: f32,
+    end: f32,          // less than `start` where nothing is kept
+    cut_first: bool,   // whether it begins at the plane
+    cut_last: bool,    // whether it ends there
+}
+
+// `span` is where the ray is in the box, in front of the camera.
+fn kept_part(ray: Ray, span: vec2f, n: vec3f, offset: f32) -> Kept {
+    let rate = dot(n, ray.direction);
+    if abs(rate) < 1e-7 {
+        let inside = dot(n, ray.origin) <= offset;
+        return Kept(span.x, select(span.x - 1.0, span.y, inside), false, false);
+    }
+    let t = (offset - dot(n, ray.origin)) / rate;
+    if rate < 0.0 {
+        return Kept(max(span.x, t), span.y, t > span.x, false);
+    }
+    return Kept(span.x, min(span.y, t), false, t < span.y);
+}
+
+// A position that swings by `sweep` to both sides in `period` seconds, kept in -1..1.
+fn swept_position(position: f32, sweep: f32, period: f32) -> f32 {
+    let turn = view.time / max(period, 1e-6);
+    return clamp(position + sweep * sin(6.283185307179586 * (turn - floor(turn))), -1.0, 1.0);
+}
+
+// Coverage by the edges of the box on the plane with normal n, a face or one that cuts it, at distance t.
+fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 {
+    let p = sight.ray.origin + t * sight.ray.direction;
+    let gap = max(half_size - abs(p - center), vec3f(0.0));
+    var covered = 0.0;
+    for (var k = 0u; k < 3u; k++) {
+        let axis = unit_axis(k);
+        if abs(dot(n, axis)) < 0.99 {
+            covered = max(covered, line_coverage(pixels_away(gap[k], screen_rate(sight, t, n, axis)), width, sample_window()));
+        }
+    }
+    return covered;
+}
+
+// Coverage by the lines at the multiples of `spacing` of each coordinate, on a plane.
+fn coordinate_lines(sight: Sight, t: f32, n: vec3f, spacing: f32, width: f32) -> f32 {
+    let p = sight.ray.origin + t * sight.ray.direction;
+    var covered = 0.0;
+    for (var k = 0u; k < 3u; k++) {
+        let rate = screen_rate(sight, t, n, unit_axis(k)) / spacing;
+        if abs(n[k]) < 0.99 && abs(p[k]) < 4194304.0 * spacing {
+            covered = max(covered, even_lines(p[k] / spacing, rate, width));
+        }
+    }
+    return covered;
+}
+
+// Where coordinates are 0 on a plane: colour of the axis along the line, and coverage. x is red, y is green, z is blue;
+// on a plane across an axis, the line where one of the other two coordinates is 0 is along the third.
+fn axis_lines(sight: Sight, t: f32, n: vec3f, width: f32) -> vec4f {
+    let p = sight.ray.origin + t * sight.ray.direction;
+    var painted = vec4f();
+    for (var k = 0u; k < 3u; k++) {
+        if abs(n[k]) < 0.99 {
+            let away = pixels_away(abs(p[k]), screen_rate(sight, t, n, unit_axis(k)));
+            let along = abs(cross(n, unit_axis(k)));
+            let colour = along.x * vec3f(0.55, 0.03, 0.02) + along.y * vec3f(0.02, 0.30, 0.03) + along.z * vec3f(0.02, 0.06, 0.55);
+            let covered = line_coverage(away, width, sample_window());
+            if covered > painted.a {
+                painted = vec4f(colour, covered);
+            }
+        }
+    }
+    return painted;
+}
+
+fn unit_axis(k: u32) -> vec3f {
+    return vec3f(f32(k == 0u), f32(k == 1u), f32(k == 2u));
+}
+
+// A distance in units of which a pixel spans `rate`, in pixels.
+fn pixels_away(offset: f32, rate: f32) -> f32 {
+    return min(offset / max(rate, 1e-37), 1e9);
+}
+
+// The greatest of 1, 2, 5 times a power of ten that is not above x.
+fn round_spacing(x: f32) -> f32 {
+    let size = clamp(x, 1e-30, 1e30);
+    let decade = pow(10.0, floor(log2(size) * 0.30102999566398120));
+    let part = size / decade;
+    return decade * select(select(select(select(0.5, 1.0, part >= 0.9999), 2.0, part >= 1.9999), 5.0, part >= 4.9999), 10.0, part >= 9.999);
+}
+
+// ---- Where the box stands ------------------------------------------------------------------------------------
+
+// The sky, lighter at the horizon, which has the colour `background`.
+fn sky_at(direction: vec3f, background: vec3f) -> vec3f {
+    let height = clamp(direction.z, 0.0, 1.0);
+    return background * mix(vec3f(1.0), vec3f(0.60, 0.68, 0.80), 1.0 - exp2(-2.5 * height));
+}
+
+// Behind a box that stands on the ground: the ground, darker where the box touches it, fading into the sky.
+fn stage_colour(ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec3f {
+    let sky = sky_at(ray.direction, background);
+    let height = ray.origin.z - (center.z - half_size.z);
+    if height <= 0.0 || ray.direction.z > -1e-6 {
+        return sky;
+    }
+    let p = ray.origin - ray.direction * (height / ray.direction.z);
+    let reach = 0.30 * length(half_size.xy);
+    let aside = length(max(abs(p.xy - center.xy) - half_size.xy, vec2f(0.0)));
+    let away = length(p.xy - center.xy) / max(length(half_size), 1e-20);
+    let light = 1.0 - 0.22 * exp2(-2.5 * aside / reach);
+    return mix(background * vec3f(0.90, 0.89, 0.87) * light, sky, 1.0 - exp2(-0.012 * away * away));
+}

@@ -1,0 +1,105 @@
+// Real values as colours and lines.
+
+// Level lines may darken an area by no more than this on average, however dense they are.
+const DENSEST: f32 = 0.34;
+
+// The real line onto (-1, 1): f/√(1 + f²) in units of `scale`.
+fn saturate_value(value: f32, scale: f32) -> f32 {
+    let x = clamp(value / scale, -1e18, 1e18);
+    return x * inverseSqrt(1.0 + x * x);
+}
+
+// Colour of a saturated value in [-1, 1]: 0 blue-white-red, 1 indigo to cream, 2 paper.
+fn palette_colour(palette: u32, t: f32) -> vec3f {
+    switch palette {
+        case 1u: { return sequential_ramp(0.5 + 0.5 * t); }
+        case 2u: { return vec3f(0.93, 0.92, 0.89) - 0.10 * max(-t, 0.0) * vec3f(1.0, 0.7, 0.45); }
+        default: { return diverging_ramp(t); }
+    }
+}
+
+// Colour of a value.
+fn value_colour(palette: u32, value: f32, scale: f32) -> vec3f {
+    return palette_colour(palette, saturate_value(value, scale));
+}
+
+// Mean colour where the value runs linearly over value ± reach. The part beyond ±8 scales has the end colours; the rest
+// is integrated by the four-point Gauss rule.
+fn mean_value_colour(palette: u32, value: f32, reach: f32, scale: f32) -> vec3f {
+    if reach < 0.05 * scale {
+        return value_colour(palette, value, scale);
+    }
+    let x = clamp(value / scale, -1e18, 1e18);
+    let r = clamp(reach / scale, 0.01, 1e18);
+    let low = clamp(x - r, -8.0, 8.0);
+    let high = clamp(x + r, -8.0, 8.0);
+    let below = clamp((-8.0 - (x - r)) / (2.0 * r), 0.0, 1.0);
+    let above = clamp(((x + r) - 8.0) / (2.0 * r), 0.0, 1.0);
+    let middle = 0.5 * (low + high);
+    let arm = 0.5 * (high - low);
+    var inner = vec3f();
+    for (var k = 0u; k < 4u; k++) {
+        let node = select(0.3399810435848563, 0.8611363115940526, k > 1u) * select(1.0, -1.0, (k & 1u) == 0u);
+        let weight = select(0.3260725774312731, 0.1739274225687269, k > 1u);
+        inner += weight * value_colour(palette, middle + node * arm, 1.0);
+    }
+    return below * palette_colour(palette, -1.0) + above * palette_colour(palette, 1.0) + max(1.0 - below - above, 0.0) * inner;
+}
+
+// Coverage by lines at the multiples of `spacing`. `rate` is the change of value per pixel.
+fn level_lines(value: f32, rate: f32, spacing: f32, width: f32) -> f32 {
+    let u = value / spacing;
+    let lines_per_pixel = min(rate / spacing, 1e9);
+    let duty = min(lines_per_pixel * width, 1.0);
+    let dimming = min(1.0, DENSEST / max(lines_per_pixel * width, 1e-20));
+    // Past 2²² spacings f32 no longer resolves the place between two lines.
+    if abs(u) > 4194304.0 || is_inf(u) {
+        return duty * dimming;
+    }
+    return line_train(u, duty, lines_per_pixel * sample_window()) * dimming;
+}
+
+// Coverage by the line f = 0. It fades where several level lines share a pixel: a zero cannot be told from a pole there.
+fn zero_line(value: f32, rate: f32, spacing: f32, width: f32) -> f32 {
+    let lines_per_pixel = rate / spacing;
+    if rate <= 0.0 || lines_per_pixel > 4.0 {
+        return 0.0;
+    }
+    return line_coverage(pixels_away(abs(value), rate), width, sample_window()) * (1.0 - smoothstep(1.0, 4.0, lines_per_pixel));
+}
+
+// Contour lines of a value.
+struct Contours {
+    spacing: f32,     // value between lines
+    width: f32,       // pixels
+    zero_width: f32,  // pixels, of the line f = 0
+    opacity: f32,     // of the lines but the zero line
+    major: u32,       // every how many lines one is stronger; 0: none
+}
+
+// All lines together, as opacity of the ink.
+fn contour_opacity(value: f32, rate: f32, contours: Contours) -> f32 {
+    var opacity = contours.opacity * level_lines(value, rate, contours.spacing, contours.width);
+    if contours.major > 0u {
+        let strong = level_lines(value, rate, contours.spacing * f32(contours.major), 1.5 * contours.width);
+        opacity = max(opacity, min(1.5 * contours.opacity, 1.0) * strong);
+    }
+    return max(opacity, zero_line(value, rate, contours.spacing, contours.zero_width));
+}
+
+// A picture of a value by colour and lines: undefined values hatched, infinite ones in the end colours and hatched the
+// other way. `rate` is the change of value per pixel, negative where it is not
+// known.
+fn contour_colour(value: f32, rate: f32, palette: u32, scale: f32, contours: Contours, ink: vec3f, pixel: vec2f) -> vec3f {
+    if is_nan(value) {
+        return undefined_colour(pixel);
+    }
+    if is_inf(value) {
+        return infinite_colour(pixel, palette_colour(palette, sign(value)));
+    }
+    if rate < 0.0 {
+        return value_colour(palette, value, scale);
+    }
+    let colour = mean_value_colour(palette, value, 0.5 * rate * sample_window(), scale);
+    return mix(colour, ink, contour_opacity(value, rate, contours));
+}

@@ -1,0 +1,62 @@
+//! The settings of `cutaway`.
+
+use super::{Scene, SettingSpec, Space, space};
+
+/// A family of level sets in space, cut open by a plane that shows the values.
+pub const SCENE: Scene = Scene {
+    name: "cutaway",
+    doc: "the surfaces f = level + k spacing, cut open by a plane that may sweep, with colours and contour lines on the cut",
+    space: Space::Space,
+    template: include_str!("../../shaders/scenes/cutaway.wgsl"),
+    settings: &[
+        space::BOX,
+        space::CENTER,
+        space::NORMAL,
+        space::POSITION,
+        space::SWEEP,
+        space::PERIOD,
+        space::LEVEL,
+        space::LEVEL_SPACING,
+        space::COUNT,
+        space::HIGHLIGHT,
+        space::HIGHLIGHT_OPACITY,
+        space::GHOST_OPACITY,
+        space::COLOR_SCALE,
+        space::CONTOUR_SPACING,
+        space::LINE_WIDTH,
+        space::LINE_OPACITY,
+        SettingSpec::real(
+            "level_width",
+            2.6,
+            (0.0, 20.0),
+            "pixels, of the line f = level on the cut; 0: none",
+        ),
+        space::INK,
+        SettingSpec::real(
+            "cut_below",
+            1.0,
+            (0.0, 1.0),
+            "opacity of the cut where f < level",
+        ),
+        SettingSpec::real(
+            "cut_above",
+            0.3,
+            (0.0, 1.0),
+            "opacity of the cut where f > level",
+        ),
+        space::STEPS,
+        space::ISOLINE_WIDTH,
+        space::WALL_OPACITY,
+        space::LIGHTING,
+        space::YAW,
+        space::PITCH,
+        space::DISTANCE,
+        space::FOV,
+        space::LIGHT_YAW,
+        space::LIGHT_PITCH,
+        space::BACKDROP,
+        space::BACKGROUND,
+        space::EDGE_WIDTH,
+        SettingSpec::precision(),
+    ],
+};

@@ -1,0 +1,56 @@
+//! The settings of `volumecut`.
+
+use super::{Scene, SettingSpec, Space, space};
+
+/// A function of space as a luminous gas, cut open.
+pub const SCENE: Scene = Scene {
+    name: "volumecut",
+    doc: "a function of space as a luminous gas, cut open by a plane that may sweep, with contour lines on the cut",
+    space: Space::Space,
+    template: include_str!("../../shaders/scenes/volumecut.wgsl"),
+    settings: &[
+        space::BOX,
+        space::CENTER,
+        space::NORMAL,
+        space::POSITION,
+        space::SWEEP,
+        space::PERIOD,
+        space::EXTINCTION_SCALE,
+        space::POWER,
+        space::DENSITY,
+        space::SIGNS,
+        space::POSITIVE,
+        space::NEGATIVE,
+        space::CORE,
+        space::EMISSION_LIGHTING,
+        space::EXPOSURE,
+        space::TONE,
+        space::GAMMA,
+        space::JITTER,
+        space::STRETCHES,
+        space::CONTOUR_SPACING,
+        space::LINE_WIDTH,
+        space::ZERO_WIDTH,
+        space::LINE_OPACITY,
+        SettingSpec::colour(
+            "ink",
+            [0.85, 0.87, 0.9],
+            "colour of contour lines, linear rgb",
+        ),
+        SettingSpec::real(
+            "cut_opacity",
+            0.35,
+            (0.0, 1.0),
+            "of the colours on the cut; the lines have their own",
+        ),
+        space::YAW,
+        space::PITCH,
+        space::DISTANCE,
+        space::FOV,
+        space::LIGHT_YAW,
+        space::LIGHT_PITCH,
+        space::DARK,
+        space::EDGE_WIDTH,
+        SettingSpec::precision(),
+    ],
+};

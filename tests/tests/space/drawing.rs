@@ -1,0 +1,72 @@
+//! Pictures of programs on the software adapter.
+
+use pullback_compiler::lower::Precision;
+use pullback_runtime::{Frame, Gpu, Pipeline, Renderer, Size, View, fill_in_scale};
+use pullback_tests::accuracy::evaluators::suite_gpu;
+
+use crate::colour::{Rgb, decoded};
+
+/// A picture with its sRGB pixels.
+pub struct Picture {
+    size: [u32; 2],
+    rows: Vec<u8>,
+}
+
+impl Picture {
+    /// Bytes of a pixel.
+    pub fn bytes(&self, x: u32, y: u32) -> [u8; 3] {
+        let at = 4 * (y * self.size[0] + x) as usize;
+        [0, 1, 2].map(|k| self.rows[at + k])
+    }
+
+    /// sRGB of a pixel, 0..1.
+    pub fn srgb(&self, x: u32, y: u32) -> Rgb {
+        self.bytes(x, y).map(|b| f64::from(b) / 255.0)
+    }
+
+    /// Linear light of a pixel.
+    pub fn linear(&self, x: u32, y: u32) -> Rgb {
+        self.srgb(x, y).map(decoded)
+    }
+}
+
+/// The device of the suite; `None` where there is none and that is allowed.
+pub fn device() -> Option<Gpu> {
+    suite_gpu()
+}
+
+/// Draws the first picture of a program.
+pub fn draw(gpu: &Gpu, source: &str, size: [u32; 2], samples: u32, time: f64) -> Picture {
+    let compiled = pullback_compiler::compile(source);
+    let program = compiled
+        .program
+        .unwrap_or_else(|| panic!("{source}: {:?}", compiled.diagnostics));
+    let picture = &program.pictures()[0];
+    let scene = program
+        .scene_module(0, Precision::Accurate)
+        .expect("a scene");
+    let view = View {
+        center: [0.0; 2],
+        height: 2.0,
+    };
+    let pixels = Size {
+        width: size[0],
+        height: size[1],
+    };
+    let mut settings = picture.settings.clone();
+    fill_in_scale(&mut settings, picture, &view, pixels, &[], time);
+    let frame = Frame {
+        view,
+        params: &[],
+        settings: &scene.pack_settings(&settings),
+        size: pixels,
+        samples,
+        time,
+        pipeline: Pipeline::Compute,
+    };
+    let mut rows = Vec::new();
+    Renderer::new(gpu, &scene)
+        .and_then(|mut r| r.render(&frame, &mut rows))
+        .expect("a picture");
+    Picture { size, rows }
+}

@@ -1,0 +1,13 @@
+//! Pictures of scenes of space against closed forms and f64 references of our own: where planes, lines, layers and light
+//! have to be.
+
+mod camera;
+mod colour;
+mod cutaway;
+mod drawing;
+mod extremes;
+mod glow;
+mod lines;
+mod nested;
+mod slices;
+mod volume;
