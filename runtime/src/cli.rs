@@ -12,6 +12,7 @@ mod explain;
 mod failure;
 mod fmt;
 mod functions;
+mod gallery;
 mod json;
 mod overrides;
 mod place;
@@ -77,6 +78,9 @@ enum Command {
     /// Evaluate a formula at points
     #[command(after_help = EXIT_CODES)]
     Eval(eval::EvalArguments),
+    /// Draw many programs on one sheet
+    #[command(after_help = EXIT_CODES)]
+    Gallery(gallery::GalleryArguments),
     /// Compare two pictures, in numbers and to the eye
     #[command(after_help = diff::EXIT_CODES)]
     Diff(diff::DiffArguments),
@@ -298,6 +302,7 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
         Command::Fmt(arguments) => fmt::run(&arguments, console),
         Command::Explain(arguments) => explain::run(&arguments, console),
         Command::Eval(arguments) => eval::run(&arguments, console),
+        Command::Gallery(arguments) => gallery::run(&arguments, console),
         Command::Diff(arguments) => diff::run(&arguments, console),
         Command::Probe(arguments) => probe::run(&arguments, console),
         Command::Doctor(arguments) => doctor::run(&arguments, console),

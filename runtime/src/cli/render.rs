@@ -11,7 +11,8 @@ use pullback_runtime::animation::Container;
 use pullback_runtime::auto::{self, Scenery};
 use pullback_runtime::executor::Painter;
 use pullback_runtime::image_file::Format;
-use pullback_runtime::render::{MAX_SAMPLES, MAX_SIDE};
+use pullback_runtime::render::MAX_SAMPLES;
+pub(super) use pullback_runtime::render::MAX_SIDE;
 use pullback_runtime::{
     Error, Frame, Gpu, Metadata, Pipeline, Renderer, RowSink, Size, View, fill_in_scale, image_file,
 };

@@ -29,7 +29,14 @@ impl Source {
     ///
     /// A program with errors is a [`Failure::Program`].
     pub(super) fn open(input: &Input, console: &Console) -> Result<Self, Failure> {
-        let Text { name, stem, bytes } = Text::read(&input.input)?;
+        Self::compiled(Text::read(&input.input)?, console)
+    }
+
+    /// Compiles what has been read, and tells its diagnostics.
+    ///
+    /// A program with errors is a [`Failure::Program`].
+    pub(super) fn compiled(text: Text, console: &Console) -> Result<Self, Failure> {
+        let Text { name, stem, bytes } = text;
         let compilation = pullback_compiler::compile_bytes(&bytes);
         let text = String::from_utf8_lossy(&bytes).into_owned();
         console.diagnostics(&compilation.diagnostics, &name, &text);

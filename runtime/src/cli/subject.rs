@@ -57,6 +57,24 @@ impl Subject {
         })
     }
 
+    /// The first picture of a program as it is, with one sample at each place of a grid of two by two in a pixel.
+    pub(super) fn small(source: Source, size: Size) -> Result<Self, Failure> {
+        let picture = &source.program.pictures()[0];
+        let (params, mut settings) = overrides::for_picture(&[], &source.program, picture)?;
+        let view = render::view(None, None, picture, &settings)?;
+        fill_in_scale(&mut settings, picture, &view, size, &params, 0.0);
+        Ok(Self {
+            index: 0,
+            settings,
+            params,
+            view,
+            size,
+            samples: 2,
+            time: 0.0,
+            source,
+        })
+    }
+
     pub(super) fn picture(&self) -> &Picture {
         &self.source.program.pictures()[self.index]
     }
