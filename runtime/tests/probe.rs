@@ -156,7 +156,7 @@ fn a_removed_guard_is_found() {
 /// A product that is subnormal becomes zero, and is made large behind that.
 #[test]
 fn a_flushed_subnormal_is_found() {
-    let subject = Subject::new("x y 1e30 + y");
+    let subject = Subject::new("1e30 (x y) + y");
     let (site, found) = subject.found(&[1.5e-20, 2.5e-20], |module| {
         change(
             function(module, "evaluate"),

@@ -237,6 +237,11 @@ fn grammar_and_compiler_do_not_give_up() {
 }
 
 #[test]
+fn the_executor_knows_no_device() {
+    check_absent(&["runtime/src/executor"], &["wgpu"]);
+}
+
+#[test]
 fn nothing_is_unsafe_outside_of_the_runtime() {
     check_absent(&["grammar/src", "compiler/src", "tests/src"], &["unsafe "]);
 }

@@ -241,3 +241,31 @@ fn every_construct_of_our_modules_has_a_row() {
         }
     }
 }
+
+/// Where the table begins in the document.
+const BEGIN: &str = "From [tests/data/executor.txt](../tests/data/executor.txt).\n\n";
+
+/// The document shows every row with its first case; `BLESS=1` writes it.
+#[test]
+fn the_document_shows_the_table() {
+    let path = root().join("docs/executor.md");
+    let document = read(&path);
+    let (before, _) = document.split_once(BEGIN).expect("the place of the table");
+    let mut written =
+        format!("{before}{BEGIN}| Constructs | Text | For example |\n| --- | --- | --- |\n");
+    for row in rows() {
+        let code = row.wgsl.split_whitespace().collect::<Vec<_>>().join(" ");
+        let code = code.replace('|', "\\|");
+        let case = row.cases[0].line.replace("->", "→").replace('|', "\\|");
+        let constructs = row.constructs.join("; ");
+        written += &format!("| {constructs} | `{code}` | {} |\n", case.trim());
+    }
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::write(&path, &written).expect("a document");
+        return;
+    }
+    assert!(
+        document == written,
+        "docs/executor.md is not up to date: run with BLESS=1 and read the difference"
+    );
+}

@@ -68,9 +68,11 @@ fn table(name: &str) -> BTreeMap<(String, String), Errors> {
     let path = format!("{}/../docs/{name}", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).expect("an accuracy table");
     let number = |cell: &str| -> f64 {
-        let word = cell.split_whitespace().next().unwrap_or("");
+        let word = cell.split([' ', ',']).next().unwrap_or("");
         match word {
             "-" => 0.0,
+            // a NaN or an infinity that should be none, or a zero of the wrong sign
+            _ if cell.ends_with("wrong") => f64::INFINITY,
             _ => word.parse().unwrap_or_else(|_| panic!("{path}: {cell}")),
         }
     };
@@ -96,6 +98,9 @@ fn table(name: &str) -> BTreeMap<(String, String), Errors> {
 fn shown(x: f64) -> String {
     if x == 0.0 {
         return "0".to_owned();
+    }
+    if x.is_infinite() {
+        return "∞".to_owned();
     }
     if x >= 1e4 {
         return format!("1e{}", x.log10().floor());

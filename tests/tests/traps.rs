@@ -26,14 +26,6 @@ fn machines() -> Vec<Machine> {
     machines
 }
 
-/// What a machine is called in a message.
-fn label(machine: &Machine) -> String {
-    match machine {
-        Machine::Reference => "f64 reference".to_owned(),
-        Machine::Gpu(gpu, tier) => format!("{} ({})", gpu.adapter().name, tier.name()),
-    }
-}
-
 /// A formula, its argument, what the columns are, and the tolerance in units in the last place of each.
 struct Trap {
     source: &'static str,
@@ -76,9 +68,7 @@ fn judge(trap: &Trap, machine: &Machine) -> String {
             let _ = writeln!(
                 wrong,
                 "{}: {} at {:?}: column {k} is {got:e}, not {expected:e}",
-                label(machine),
-                trap.source,
-                trap.args
+                machine, trap.source, trap.args
             );
         }
     }
@@ -338,7 +328,7 @@ fn parts_of_numbers_jump_where_they_should() {
             assert!(
                 (0.0..1.0).contains(&rows[0][0]),
                 "{}: fract({x}) = {}",
-                label(machine),
+                machine,
                 rows[0][0]
             );
         }
@@ -384,7 +374,7 @@ fn decimal_logarithms_are_whole_at_powers_of_ten() {
             assert!(
                 row[0] == nearest,
                 "{}: log10(1e{k}) = {:e}, not {nearest:e}",
-                label(machine),
+                machine,
                 row[0]
             );
         }
@@ -524,12 +514,7 @@ fn slopes_of_quotients_are_numbers_where_divisors_overflow() {
             };
             let row = machine.run(&formula(source), what, &[point]).expect(source);
             if !row[0].iter().all(|x| x.abs() < LEAST) {
-                let _ = writeln!(
-                    wrong,
-                    "{}: {source} at {args:?}: {:?}",
-                    label(machine),
-                    row[0]
-                );
+                let _ = writeln!(wrong, "{}: {source} at {args:?}: {:?}", machine, row[0]);
             }
         }
     }

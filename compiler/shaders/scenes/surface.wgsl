@@ -420,7 +420,6 @@ fn distance_estimate(jet: vec4f) -> f32 {
 
 // The surface where a ray meets it.
 struct Spot {
-    p: vec3f,
     n: vec3f,       // towards the eye
     side: f32,      // sign of f - level on the side of the eye
     outer: bool,
@@ -434,12 +433,11 @@ fn spot_point(path: Path, hit: Hit) -> vec3f {
     return path.ray.origin + t * path.ray.direction;
 }
 
-// `jet` is of the spot's point.
-fn spot_at(p: vec3f, jet: vec4f, direction: vec3f, touching: bool) -> Spot {
+fn spot_at(jet: vec4f, direction: vec3f, touching: bool) -> Spot {
     let gradient = direction_or(jet.xyz, -direction);
     let toward_eye = dot(gradient, direction) <= 0.0;
     let n = select(-gradient, gradient, toward_eye);
-    return Spot(p, n, select(-1.0, 1.0, toward_eye), toward_eye || touching);
+    return Spot(n, select(-1.0, 1.0, toward_eye), toward_eye || touching);
 }
 
 // Height above the surface of the k-th point from which its openness is judged, k = 1 … 3.
@@ -465,9 +463,10 @@ fn lit(colour: vec3f, n: vec3f, v: vec3f, open: f32) -> vec3f {
     return colour * (sky * open + sun) + vec3f(gloss) + rim * settings.background;
 }
 
-// What light needs of f and its gradient: both at the base, and how much of the sky the surface hides from it.
+// What light needs of f and its gradient.
 struct Light {
-    jet: vec4f,
+    jet: vec4f,    // at the base
+    spot: Spot,    // what that makes of a hit
     closed: f32,   // sum of `hidden_sky`; 0 on the ground
 }
 
@@ -484,14 +483,15 @@ fn look_at_base(base: vec3f, direction: vec3f, hit: Hit, on_ground: bool) -> Lig
             let jet = field_grad(p);
             if k == 0u {
                 light.jet = jet;
+                light.spot = spot_at(jet, direction, hit.touching);
             } else {
-                light.closed += hidden_sky(jet, spot_at(base, light.jet, direction, hit.touching).side, k);
+                light.closed += hidden_sky(jet, light.spot.side, k);
             }
         }
         if !hit.found {
             break;
         }
-        p = base + open_height(k + 1u) * spot_at(base, light.jet, direction, hit.touching).n;
+        p = base + open_height(k + 1u) * light.spot.n;
     }
     return light;
 }
@@ -780,7 +780,7 @@ fn shade(pixel: vec2f) -> vec4f {
     let light = look_at_base(base, ray.direction, hit, ground > 0.0);
     var colour: vec3f;
     if hit.found {
-        colour = surface_colour(spot_at(base, light.jet, ray.direction, hit.touching), ray.direction, light.closed);
+        colour = surface_colour(light.spot, ray.direction, light.closed);
     } else if ground > 0.0 {
         colour = ground_colour(ground_point, light.jet, ray.direction, shadowed);
     } else {

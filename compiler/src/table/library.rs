@@ -111,9 +111,19 @@ pub enum Direct {
 }
 
 impl Meaning {
-    /// The one function that gives the value, where all operands are of one kind and so is the value.
+    /// The functions that give the values, where all operands are of one kind and so are the values.
     #[must_use]
-    pub fn direct(self, complex: bool) -> Option<Direct> {
+    pub fn direct(self, complex: bool) -> Option<Vec<Direct>> {
+        match self {
+            Self::Both(first, second) => {
+                let part = |prim| Self::Operation(prim).one(complex);
+                Some(vec![part(first)?, part(second)?])
+            }
+            _ => self.one(complex).map(|direct| vec![direct]),
+        }
+    }
+
+    fn one(self, complex: bool) -> Option<Direct> {
         let found = match self {
             Self::Operation(prim) if complex => row(prim).complex.map(Direct::Complex),
             Self::Operation(prim) => row(prim).real.map(Direct::Real),
@@ -181,10 +191,18 @@ mod tests {
         };
         assert_eq!(value("real_powi", 3.0, -2), Number::Real(1.0 / 9.0));
         assert_eq!(value("real_sincos", 0.0, 0), Number::Real(0.0));
-        let Some(Direct::Real(f)) = meaning("real_scaled_power").unwrap().direct(false) else {
+        let scaled = meaning("real_scaled_power").unwrap().direct(false).unwrap();
+        let [Direct::Real(f)] = scaled.as_slice() else {
             panic!("no function");
         };
         assert_eq!(f(&[2.0, 3.0, 1.0, 0.5]), 8.0);
+        assert_eq!(
+            meaning("complex_sincos")
+                .unwrap()
+                .direct(true)
+                .map(|d| d.len()),
+            Some(2)
+        );
         assert!(meaning("complex_abs").unwrap().direct(true).is_none());
     }
 }

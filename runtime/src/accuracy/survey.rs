@@ -250,7 +250,8 @@ fn judge(subject: &Subject, machine: &Machine, each: usize) -> Result<Finding, S
 /// What the machine's adapter is allowed.
 fn allowance(machine: &Machine) -> Result<Allowance, Error> {
     match machine {
-        Machine::Reference => Ok(Allowance::default()),
+        // exact binary32 takes no liberties either
+        Machine::Reference | Machine::Processor(..) => Ok(Allowance::default()),
         Machine::Gpu(gpu, _) => Ok(Allowance::of(&*Capabilities::of(gpu)?, machine.format())),
     }
 }

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use pullback_compiler::{Evaluator, What};
 use pullback_runtime::GpuEvaluator;
 use pullback_runtime::evaluate::Surroundings;
-use pullback_runtime::executor::Rows;
+use pullback_runtime::executor::{Arithmetic, Rows};
 use pullback_runtime::rows::{self, Number, RowError, RowReader};
 
 use super::failure::Failure;
@@ -120,6 +120,10 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
                         outputs: module.outputs.len(),
                         surroundings,
                     };
+                    let narrow = !module.tier.precision.format().is_wide();
+                    if narrow && *arithmetic == Arithmetic::Ieee32 {
+                        return table.run(&mut Narrow(machine), console);
+                    }
                     return table.run(&mut machine, console);
                 }
             };
@@ -235,6 +239,25 @@ impl Machine for OnProcessor<'_> {
 
     fn eval(&mut self, count: usize, rows: &[f64], results: &mut Vec<f64>) -> Result<(), Failure> {
         Ok(self.rows.eval(self.surroundings, count, rows, results)?)
+    }
+}
+
+/// Numbers of single precision, read and written as such.
+struct Narrow<'a>(OnProcessor<'a>);
+
+impl Machine for Narrow<'_> {
+    type Number = f32;
+
+    fn outputs(&self) -> usize {
+        self.0.outputs()
+    }
+
+    fn eval(&mut self, count: usize, rows: &[f32], results: &mut Vec<f32>) -> Result<(), Failure> {
+        let rows: Vec<f64> = rows.iter().copied().map(f64::from).collect();
+        let mut wide = Vec::new();
+        self.0.eval(count, &rows, &mut wide)?;
+        results.extend(wide.into_iter().map(|x| x as f32));
+        Ok(())
     }
 }
 

@@ -16,7 +16,7 @@ const SINGLE: &[u32] = &[0];
 
 /// The chunks that an instruction writes.
 #[inline(always)]
-fn chunks<'m>(mask: &'m Mask, d: Slot) -> &'m [u32] {
+fn chunks(mask: &Mask, d: Slot) -> &[u32] {
     if d.is_uniform() {
         SINGLE
     } else {

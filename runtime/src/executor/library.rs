@@ -6,7 +6,7 @@ use pullback_compiler::reference::complex::{Complex, complex};
 use pullback_compiler::table::{Direct, Meaning, Number, meaning};
 
 use super::kernels::{Lanes, each_lane, write};
-use super::lanes::{Slot, TRUE};
+use super::lanes::{Chunk, Slot, TRUE};
 
 /// What stands in for a function of the shader library.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,14 +54,29 @@ pub(super) enum Operand {
     Words(Vec<Slot>),
 }
 
+/// How a call's values are found.
+#[derive(Clone, Debug)]
+enum Way {
+    /// Functions of reals.
+    Reals(Vec<fn(&[f64]) -> f64>),
+    /// Functions of complex numbers.
+    Complexes(Vec<fn(&[Complex]) -> Complex>),
+    /// A test of a real.
+    Test(fn(f64) -> bool),
+    FromWords,
+    ToWords,
+    /// The table finds out.
+    General(Meaning),
+}
+
 /// A call of a library function.
 #[derive(Clone, Debug)]
 pub(super) struct LibraryCall {
-    pub stand: Stand,
-    pub operands: Vec<Operand>,
-    pub results: Vec<Slot>,
+    way: Way,
+    operands: Vec<Operand>,
+    results: Vec<Slot>,
     /// How the module holds a number.
-    pub format: Format,
+    format: Format,
 }
 
 /// Most operands of a library function.
@@ -69,7 +84,7 @@ const MOST: usize = 4;
 
 /// The number that is held in one or two words.
 #[inline(always)]
-fn real(memory: &[super::lanes::Chunk], parts: &[Slot], c: u32, i: usize) -> f64 {
+fn real(memory: &[Chunk], parts: &[Slot], c: u32, i: usize) -> f64 {
     let part = |slot: &Slot| f64::from_bits(memory[slot.chunk(c)].0[i]);
     match parts {
         [one] => part(one),
@@ -86,54 +101,141 @@ fn real(memory: &[super::lanes::Chunk], parts: &[Slot], c: u32, i: usize) -> f64
     }
 }
 
-impl LibraryCall {
-    pub fn run(&self, lanes: &mut Lanes) {
-        let uniform = self.results.iter().all(|slot| slot.is_uniform());
-        let mut operands = Vec::with_capacity(MOST);
-        each_lane(lanes.memory, lanes.mask, uniform, |memory, c, i| {
-            operands.clear();
-            self.lane(memory, c, i, &mut operands);
-        });
+/// How the values of a function of these operands are found.
+fn way(stand: Stand, operands: &[Operand]) -> Way {
+    let meaning = match stand {
+        Stand::IsNan => return Way::Test(f64::is_nan),
+        Stand::IsInfinite => return Way::Test(f64::is_infinite),
+        Stand::IsFinite => return Way::Test(f64::is_finite),
+        Stand::MagnifyTiny => return Way::Reals(vec![|x| x[0] * 18_446_744_073_709_551_616.0]),
+        Stand::Number(Meaning::FromWords) => return Way::FromWords,
+        Stand::Number(Meaning::ToWords) => return Way::ToWords,
+        Stand::Number(meaning) => meaning,
+    };
+    let all = |is: fn(&Operand) -> bool| operands.iter().all(is);
+    let complex = all(|operand| matches!(operand, Operand::Complex(..)));
+    let alike = complex || all(|operand| matches!(operand, Operand::Real(_)));
+    let direct = meaning
+        .direct(complex)
+        .filter(|_| alike && operands.len() <= MOST);
+    let (mut reals, mut complexes) = (Vec::new(), Vec::new());
+    for direct in direct.unwrap_or_default() {
+        match direct {
+            Direct::Real(f) => reals.push(f),
+            Direct::Complex(f) => complexes.push(f),
+        }
     }
+    match (reals.is_empty(), complexes.is_empty()) {
+        (false, true) => Way::Reals(reals),
+        (true, false) => Way::Complexes(complexes),
+        _ => Way::General(meaning),
+    }
+}
 
-    fn placed_parts(parts: &mut [Slot], uniforms: u32) {
-        for slot in parts {
-            *slot = slot.placed(uniforms);
+impl LibraryCall {
+    pub fn new(stand: Stand, operands: Vec<Operand>, results: Vec<Slot>, format: Format) -> Self {
+        Self {
+            way: way(stand, &operands),
+            operands,
+            results,
+            format,
         }
     }
 
     /// The call with its slots in a memory that begins with so many uniforms.
     pub fn placed(mut self, uniforms: u32) -> Self {
+        let place = |parts: &mut [Slot]| {
+            for slot in parts {
+                *slot = slot.placed(uniforms);
+            }
+        };
         for operand in &mut self.operands {
             match operand {
-                Operand::Real(parts) | Operand::Words(parts) => {
-                    Self::placed_parts(parts, uniforms);
-                }
+                Operand::Real(parts) | Operand::Words(parts) => place(parts),
                 Operand::Complex(re, im) => {
-                    Self::placed_parts(re, uniforms);
-                    Self::placed_parts(im, uniforms);
+                    place(re);
+                    place(im);
                 }
                 Operand::Integer(slot) => *slot = slot.placed(uniforms),
             }
         }
-        Self::placed_parts(&mut self.results, uniforms);
+        place(&mut self.results);
         self
     }
 
-    fn lane(
-        &self,
-        memory: &mut [super::lanes::Chunk],
-        c: u32,
-        i: usize,
-        numbers: &mut Vec<Number>,
-    ) {
-        if let Some(value) = self.direct(memory, c, i) {
-            self.give(memory, c, i, &[value]);
-            return;
+    pub fn run(&self, lanes: &mut Lanes) {
+        let uniform = self.results.iter().all(|slot| slot.is_uniform());
+        let count = self.operands.len();
+        match &self.way {
+            Way::Reals(functions) => {
+                each_lane(lanes.memory, lanes.mask, uniform, |memory, c, i| {
+                    let mut x = [0.0; MOST];
+                    self.reals(memory, c, i, &mut x);
+                    let mut to = self.results.as_slice();
+                    for f in functions {
+                        to = self.give(memory, c, i, to, f(&x[..count]), functions.len());
+                    }
+                });
+            }
+            Way::Complexes(functions) => {
+                each_lane(lanes.memory, lanes.mask, uniform, |memory, c, i| {
+                    let mut z = [Complex::ZERO; MOST];
+                    for (z, operand) in z.iter_mut().zip(&self.operands) {
+                        if let Operand::Complex(re, im) = operand {
+                            *z = complex(real(memory, re, c, i), real(memory, im, c, i));
+                        }
+                    }
+                    let mut to = self.results.as_slice();
+                    for f in functions {
+                        let value = f(&z[..count]);
+                        to = self.give(memory, c, i, to, value.re, 2 * functions.len());
+                        to = self.give(memory, c, i, to, value.im, 2 * functions.len());
+                    }
+                });
+            }
+            Way::General(meaning) => {
+                each_lane(lanes.memory, lanes.mask, uniform, |memory, c, i| {
+                    self.general(*meaning, memory, c, i);
+                });
+            }
+            Way::Test(test) => each_lane(lanes.memory, lanes.mask, uniform, |memory, c, i| {
+                let mut x = [f64::NAN; MOST];
+                self.reals(memory, c, i, &mut x);
+                let word = if test(x[0]) { TRUE } else { 0 };
+                write(memory, self.results[0], c, i, word);
+            }),
+            Way::FromWords => each_lane(lanes.memory, lanes.mask, uniform, |memory, c, i| {
+                if let Some(Operand::Words(words)) = self.operands.first() {
+                    let word =
+                        |k: usize| words.get(k).map_or(0, |s| memory[s.chunk(c)].0[i] as u32);
+                    let value = self.format.from_words([word(0), word(1)]);
+                    self.give(memory, c, i, &self.results, value, 1);
+                }
+            }),
+            Way::ToWords => each_lane(lanes.memory, lanes.mask, uniform, |memory, c, i| {
+                let mut x = [f64::NAN; MOST];
+                self.reals(memory, c, i, &mut x);
+                for (&slot, word) in self.results.iter().zip(self.format.words(x[0])) {
+                    write(memory, slot, c, i, word.into());
+                }
+            }),
         }
-        let mut integer = 0;
+    }
+
+    fn reals(&self, memory: &[Chunk], c: u32, i: usize, x: &mut [f64; MOST]) {
+        for (x, operand) in x.iter_mut().zip(&self.operands) {
+            if let Operand::Real(parts) = operand {
+                *x = real(memory, parts, c, i);
+            }
+        }
+    }
+
+    /// Any function of operands of any kind.
+    fn general(&self, meaning: Meaning, memory: &mut [Chunk], c: u32, i: usize) {
+        let mut numbers = [Number::Real(0.0); MOST];
+        let (mut count, mut integer) = (0, 0);
         for operand in &self.operands {
-            numbers.push(match operand {
+            let number = match operand {
                 Operand::Real(parts) => Number::Real(real(memory, parts, c, i)),
                 Operand::Complex(re, im) => {
                     Number::Complex(complex(real(memory, re, c, i), real(memory, im, c, i)))
@@ -143,115 +245,57 @@ impl LibraryCall {
                     continue;
                 }
                 Operand::Words(_) => continue,
-            });
+            };
+            if let Some(slot) = numbers.get_mut(count) {
+                *slot = number;
+                count += 1;
+            }
         }
-        let Stand::Number(meaning) = self.stand else {
-            return;
-        };
-        let values = meaning.evaluate(numbers, integer);
+        let values = meaning.evaluate(&numbers[..count], integer);
         let values = values.unwrap_or([Some(Number::Real(f64::NAN)), None]);
-        let mut given = [Number::Real(0.0); 2];
-        let mut count = 0;
+        let parts = |value: &Number| {
+            if matches!(value, Number::Complex(_)) {
+                2
+            } else {
+                1
+            }
+        };
+        let all = values.iter().flatten().map(parts).sum();
+        let mut to = self.results.as_slice();
         for value in values.into_iter().flatten() {
-            given[count] = value;
-            count += 1;
-        }
-        self.give(memory, c, i, &given[..count]);
-    }
-
-    /// The value of a function that is quick to find.
-    fn direct(&self, memory: &mut [super::lanes::Chunk], c: u32, i: usize) -> Option<Number> {
-        let first = |memory: &[super::lanes::Chunk]| match self.operands.first() {
-            Some(Operand::Real(parts)) => real(memory, parts, c, i),
-            _ => f64::NAN,
-        };
-        let meaning = match self.stand {
-            Stand::IsNan => return Some(Number::Truth(first(memory).is_nan())),
-            Stand::IsInfinite => return Some(Number::Truth(first(memory).is_infinite())),
-            Stand::IsFinite => return Some(Number::Truth(first(memory).is_finite())),
-            Stand::MagnifyTiny => return Some(Number::Real(first(memory) * 2f64.powi(64))),
-            Stand::Number(meaning) => meaning,
-        };
-        match (meaning, self.operands.as_slice()) {
-            (Meaning::FromWords, [Operand::Words(words)]) => {
-                let word = |k: usize| words.get(k).map_or(0, |s| memory[s.chunk(c)].0[i] as u32);
-                return Some(Number::Real(self.format.from_words([word(0), word(1)])));
-            }
-            (Meaning::ToWords, _) => {
-                let words = self.format.words(first(memory));
-                for (slot, word) in self.results.iter().zip(words) {
-                    write(memory, *slot, c, i, word.into());
-                }
-                return Some(Number::Truth(false));
-            }
-            _ => {}
-        }
-        let complex_valued = matches!(self.operands.first(), Some(Operand::Complex(..)));
-        match meaning.direct(complex_valued)? {
-            Direct::Real(f) => {
-                let mut values = [0.0; MOST];
-                for (value, operand) in values.iter_mut().zip(&self.operands) {
-                    let Operand::Real(parts) = operand else {
-                        return None;
-                    };
-                    *value = real(memory, parts, c, i);
-                }
-                Some(Number::Real(f(values.get(..self.operands.len())?)))
-            }
-            Direct::Complex(f) => {
-                let mut values = [Complex::ZERO; MOST];
-                for (value, operand) in values.iter_mut().zip(&self.operands) {
-                    let Operand::Complex(re, im) = operand else {
-                        return None;
-                    };
-                    *value = complex(real(memory, re, c, i), real(memory, im, c, i));
-                }
-                Some(Number::Complex(f(values.get(..self.operands.len())?)))
-            }
-        }
-    }
-
-    /// Writes the values, one after another, each in as many words as its format has.
-    fn give(&self, memory: &mut [super::lanes::Chunk], c: u32, i: usize, values: &[Number]) {
-        if self.stand == Stand::Number(Meaning::ToWords) {
-            return;
-        }
-        let mut slots = self.results.iter();
-        let mut put = |memory: &mut [super::lanes::Chunk], word: u64| {
-            if let Some(&slot) = slots.next() {
-                write(memory, slot, c, i, word);
-            }
-        };
-        // a pair is held in two words, but where the result is one number of single precision
-        let numbers: usize = values
-            .iter()
-            .map(|v| {
-                if matches!(v, Number::Complex(_)) {
-                    2
-                } else {
-                    1
-                }
-            })
-            .sum();
-        let paired = self.results.len() == 2 * numbers;
-        let mut number = |memory: &mut [super::lanes::Chunk], x: f64| {
-            put(memory, x.to_bits());
-            if paired {
-                put(memory, 0.0_f64.copysign(x).to_bits());
-            }
-        };
-        for value in values {
-            match *value {
-                Number::Real(x) => number(memory, x),
+            match value {
+                Number::Real(x) => to = self.give(memory, c, i, to, x, all),
                 Number::Complex(z) => {
-                    number(memory, z.re);
-                    number(memory, z.im);
+                    to = self.give(memory, c, i, to, z.re, all);
+                    to = self.give(memory, c, i, to, z.im, all);
                 }
-                Number::Truth(t) => {
-                    let word = if t { TRUE } else { 0 };
-                    number(memory, f64::from_bits(word));
+                Number::Truth(truth) => {
+                    if let Some((&first, rest)) = to.split_first() {
+                        write(memory, first, c, i, if truth { TRUE } else { 0 });
+                        to = rest;
+                    }
                 }
             }
         }
+    }
+
+    /// Writes one of `all` numbers, in as many words as each has, and gives the slots behind it.
+    #[inline(always)]
+    fn give<'s>(
+        &self,
+        memory: &mut [Chunk],
+        c: u32,
+        i: usize,
+        to: &'s [Slot],
+        x: f64,
+        all: usize,
+    ) -> &'s [Slot] {
+        let width = if self.results.len() == 2 * all { 2 } else { 1 };
+        // what a pair's second word adds is in the first
+        let words = [x.to_bits(), 0.0_f64.copysign(x).to_bits()];
+        for (&slot, word) in to.iter().zip(words).take(width) {
+            write(memory, slot, c, i, word);
+        }
+        to.get(width..).unwrap_or_default()
     }
 }

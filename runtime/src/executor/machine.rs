@@ -1,10 +1,13 @@
 //! Running a program, one group of lanes at a time.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+mod compute;
+mod control;
 
-use super::code::{BEYOND, Form, Inst, Op};
+use std::sync::atomic::AtomicBool;
+
+use super::code::{Inst, Op};
 use super::fault::Fault;
-use super::kernels::{self, Lanes, each_lane, map1, map2, write};
+use super::kernels::write;
 use super::lanes::{CHUNKS, Chunk, LANES, Mask, Slot, TRUE, WIDTH};
 use super::program::Program;
 use super::trace::{Event, Observer};
@@ -169,175 +172,6 @@ impl<'p> Machine<'p> {
         Ok(())
     }
 
-    /// Instructions that change which lanes run.
-    fn flow(&mut self, inst: &Inst, pc: &mut usize) {
-        let (memory, mask) = (&mut self.memory, &mut self.mask);
-        let go_on = match inst.op {
-            Op::If => turn(memory, mask, inst, |active, _, a| {
-                (active.and(a), active.and_not(a))
-            }),
-            Op::Else => turn(memory, mask, inst, |active, waiting, _| (waiting, active)),
-            Op::EndIf => turn(memory, mask, inst, |active, waiting, _| {
-                (active.or(waiting), waiting)
-            }),
-            Op::LeaveIf => turn(memory, mask, inst, |active, waiting, a| {
-                (active.and_not(a), waiting.or(active.and(a)))
-            }),
-            Op::Join => turn(memory, mask, inst, |active, waiting, _| {
-                (active.or(waiting), Chunk::ZERO)
-            }),
-            Op::Resume => turn(memory, mask, inst, |_, waiting, _| (waiting, waiting)),
-            Op::Case => turn(memory, mask, inst, |_, waiting, a| {
-                (waiting.and(a), waiting.and_not(a))
-            }),
-            Op::Leave => turn(memory, mask, inst, |active, waiting, _| {
-                (Chunk::ZERO, waiting.or(active))
-            }),
-            Op::Clear => {
-                for c in 0..CHUNKS {
-                    memory[inst.d.chunk(c as u32)] = Chunk::ZERO;
-                    memory[inst.a.chunk(c as u32)] = Chunk::ZERO;
-                }
-                true
-            }
-            _ => {
-                self.mask.clear();
-                false
-            }
-        };
-        if !go_on {
-            *pc = inst.x as usize;
-        }
-    }
-
-    /// The end of a step of a loop.
-    fn repeat(&mut self, inst: &Inst, pc: &mut usize, limits: Limits) -> Result<(), Fault> {
-        let (memory, steps) = (&mut self.memory, &mut self.steps);
-        let any = self.mask.change(|c, active| {
-            let k = c as u32;
-            let ends = memory[inst.a.chunk(k)];
-            let waiting = &mut memory[inst.d.chunk(k)];
-            *waiting = waiting.or(active.and(ends));
-            let now = active.and_not(ends);
-            steps[c] = steps[c].zip(now, |n, runs| n + (runs & 1));
-            now
-        });
-        if !any {
-            return Ok(());
-        }
-        *pc = inst.x as usize;
-        self.group_steps += 1;
-        if self.group_steps.is_multiple_of(1024)
-            && limits
-                .cancel
-                .is_some_and(|flag| flag.load(Ordering::Relaxed))
-        {
-            return Err(Fault::Cancelled);
-        }
-        if self.group_steps > limits.steps {
-            let most = self.steps.iter().flat_map(|chunk| chunk.0).max();
-            if most.unwrap_or(0) > limits.steps {
-                let limit = limits.steps;
-                return Err(Fault::Steps { limit });
-            }
-        }
-        Ok(())
-    }
-
-    /// Instructions that compute.
-    fn compute(&mut self, inst: &Inst) {
-        let mut lanes = Lanes {
-            memory: &mut self.memory,
-            mask: &self.mask,
-        };
-        let lanes = &mut lanes;
-        match inst.op {
-            Op::Copy => map1(lanes, inst, |a| a),
-            Op::Store => kernels::store(lanes, inst),
-            Op::Select => kernels::select(lanes, inst),
-            Op::And => map2(lanes, inst, |a, b| a & b),
-            Op::Or => map2(lanes, inst, |a, b| a | b),
-            Op::Xor => map2(lanes, inst, |a, b| a ^ b),
-            Op::Not => map1(lanes, inst, |a| !a),
-            Op::Float1(Form::F32, fun) => kernels::float1::<f32>(lanes, inst, fun),
-            Op::Float1(_, fun) => kernels::float1::<f64>(lanes, inst, fun),
-            Op::Float2(Form::F32, fun) => kernels::float2::<f32>(lanes, inst, fun),
-            Op::Float2(_, fun) => kernels::float2::<f64>(lanes, inst, fun),
-            Op::Float3(Form::F32, fun) => kernels::float3::<f32>(lanes, inst, fun),
-            Op::Float3(_, fun) => kernels::float3::<f64>(lanes, inst, fun),
-            Op::Int1(form, fun) => match form {
-                Form::I32 => kernels::int1::<i32>(lanes, inst, fun),
-                Form::I64 => kernels::int1::<i64>(lanes, inst, fun),
-                Form::U64 => kernels::int1::<u64>(lanes, inst, fun),
-                _ => kernels::int1::<u32>(lanes, inst, fun),
-            },
-            Op::Int2(form, fun) => match form {
-                Form::I32 => kernels::int2::<i32>(lanes, inst, fun),
-                Form::I64 => kernels::int2::<i64>(lanes, inst, fun),
-                Form::U64 => kernels::int2::<u64>(lanes, inst, fun),
-                _ => kernels::int2::<u32>(lanes, inst, fun),
-            },
-            Op::Compare(form, kind) => match form {
-                Form::F32 => kernels::compare(lanes, inst, kind, |w| f32::from_bits(w as u32)),
-                Form::F64 => kernels::compare(lanes, inst, kind, f64::from_bits),
-                Form::I32 => kernels::compare(lanes, inst, kind, |w| w as u32 as i32),
-                Form::I64 => kernels::compare(lanes, inst, kind, |w| w as i64),
-                _ => kernels::compare(lanes, inst, kind, |w| w),
-            },
-            Op::Convert(from, to) => kernels::converted(lanes, inst, from, to),
-            Op::BitsOfNearest => map1(lanes, inst, |w| {
-                u64::from((f64::from_bits(w) as f32).to_bits())
-            }),
-            Op::NumberOfBits => map1(lanes, inst, |w| {
-                f64::from(f32::from_bits(w as u32)).to_bits()
-            }),
-            Op::Index => {
-                let array = self.program.indices[inst.x as usize];
-                map2(lanes, inst, |index, before| {
-                    if index >= array.count || before == BEYOND {
-                        BEYOND
-                    } else {
-                        index * array.stride + before
-                    }
-                });
-            }
-            Op::LoadElement => load_element(lanes, inst),
-            Op::StoreElement => store_element(lanes, inst),
-            Op::Library => self.program.library[inst.x as usize].run(lanes),
-            _ => {}
-        }
-    }
-
-    fn buffer_access(&mut self, inst: &Inst) {
-        let buffer = &mut self.buffers[inst.x as usize];
-        let extra = if inst.op == Op::LoadBuffer {
-            inst.b.number()
-        } else {
-            inst.c.number()
-        };
-        let place = |word: u64| {
-            (word != BEYOND).then(|| {
-                usize::try_from(word)
-                    .unwrap_or(usize::MAX)
-                    .saturating_add(extra as usize)
-            })
-        };
-        if inst.op == Op::LoadBuffer {
-            each_lane(&mut self.memory, &self.mask, false, |memory, c, i| {
-                let at = place(memory[inst.a.chunk(c)].0[i]);
-                let word = at.and_then(|at| buffer.get(at)).copied().unwrap_or(0);
-                write(memory, inst.d, c, i, word);
-            });
-            return;
-        }
-        each_lane(&mut self.memory, &self.mask, false, |memory, c, i| {
-            let at = place(memory[inst.a.chunk(c)].0[i]);
-            if let Some(word) = at.and_then(|at| buffer.get_mut(at)) {
-                *word = memory[inst.b.chunk(c)].0[i];
-            }
-        });
-    }
-
     fn trace(&self, inst: &Inst, observer: &mut dyn Observer) {
         let site = &self.program.sites[inst.x as usize];
         for lane in 0..LANES {
@@ -353,45 +187,4 @@ impl<'p> Machine<'p> {
             observer.event(lane, &Event::new(site, &words));
         }
     }
-}
-
-/// Gives each chunk of the mask and of `d` another value, from the old ones and the operand; tells whether any lane runs.
-#[inline(always)]
-fn turn(
-    memory: &mut [Chunk],
-    mask: &mut Mask,
-    inst: &Inst,
-    f: impl Fn(Chunk, Chunk, Chunk) -> (Chunk, Chunk),
-) -> bool {
-    mask.change(|c, active| {
-        let (d, a) = (inst.d.chunk(c as u32), inst.a.chunk(c as u32));
-        let (now, waiting) = f(active, memory[d], memory[a]);
-        memory[d] = waiting;
-        now
-    })
-}
-
-fn load_element(lanes: &mut Lanes, inst: &Inst) {
-    let (a, b, d) = (inst.a, inst.b, inst.d);
-    each_lane(lanes.memory, lanes.mask, d.is_uniform(), |memory, c, i| {
-        let offset = memory[a.chunk(c)].0[i];
-        let word = if offset == BEYOND {
-            0
-        } else {
-            memory[b.further(offset as usize + inst.x as usize).chunk(c)].0[i]
-        };
-        write(memory, d, c, i, word);
-    });
-}
-
-fn store_element(lanes: &mut Lanes, inst: &Inst) {
-    let (a, b, d) = (inst.a, inst.b, inst.d);
-    each_lane(lanes.memory, lanes.mask, false, |memory, c, i| {
-        let offset = memory[a.chunk(c)].0[i];
-        if offset != BEYOND {
-            let word = memory[b.chunk(c)].0[i];
-            let place = d.further(offset as usize + inst.x as usize);
-            memory[place.chunk(c)].0[i] = word;
-        }
-    });
 }

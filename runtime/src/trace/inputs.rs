@@ -10,7 +10,7 @@ use crate::uniforms::{self, BatchUniform, WideWords};
 use crate::{Error, Frame};
 
 /// Words of a trace: room for some hundred thousand events.
-pub(super) const ROOM: u32 = 1 << 21;
+pub(super) const ROOM: u32 = 1 << 20;
 /// Words behind them, for what there is no room for.
 const SPARE: u32 = 8;
 /// Where a traced shader tells its values.

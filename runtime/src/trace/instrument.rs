@@ -4,30 +4,18 @@
 //! runs the module, the same events come in the same order as long as the same way is taken.
 
 use naga::proc::TypeResolution;
-use naga::valid::{Capabilities, FunctionInfo, ModuleInfo, ValidationFlags, Validator};
+use naga::valid::FunctionInfo;
 use naga::{
-    Block, Expression, Function, Handle, Literal, Module, Range, ScalarKind, Span, Statement, Type,
-    TypeInner, UniqueArena,
+    Block, Expression, Function, Handle, Literal, Module, Range, Span, Statement, Type, TypeInner,
+    UniqueArena,
 };
-use pullback_compiler::link::{Linker, Provider, number_module};
-use pullback_compiler::lower::{Format, LowerError, Tier};
-use rustc_hash::FxHashMap;
+use pullback_compiler::lower::Format;
 
-use super::inputs::ROOM;
 use super::operands;
-use super::site::{Shape, Site, What};
+use super::parts::{Part, parts};
+use super::recorders::Handles;
+use super::site::{Site, What};
 use super::text::Writer;
-use crate::Error;
-
-/// Recorders that write to the buffer at binding 5.
-const WRITING: &str = include_str!("record.wgsl");
-const WRITING_DOUBLES: &str = include_str!("record_double.wgsl");
-/// Recorders that do nothing.
-const SILENT: &str = include_str!("silent.wgsl");
-const SILENT_DOUBLES: &str = "alias real = f64; fn record_double(site: u32, value: real) {}\n";
-
-/// More parts of a structure are not told.
-const MAX_PARTS: usize = 24;
 
 /// How much a function tells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,188 +30,18 @@ pub enum Detail {
     Result,
 }
 
-/// What the functions do that a traced shader calls with its values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Recorders {
-    /// They write to the buffer at binding 5.
-    Writing,
-    /// Nothing: the machine sees the calls by itself.
-    Silent,
-}
-
-impl Recorders {
-    /// Whether a function has the name of a recorder.
-    pub(super) fn is_name(name: &str) -> bool {
-        RECORDED.iter().any(|shape| shape.recorder() == name)
-    }
-}
-
-/// What there are recorders for.
-const RECORDED: [Shape; 8] = [
-    Shape::Single(1),
-    Shape::Single(2),
-    Shape::Single(3),
-    Shape::Single(4),
-    Shape::Word,
-    Shape::Integer,
-    Shape::Truth,
-    Shape::Double,
-];
-
-/// Whose entry points a traced shader has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Entry {
-    /// Those of the module.
-    Module,
-    /// Those that stand beside the recorders, which call functions of the module.
-    Recorders,
-}
-
-/// A shader that tells its values, by calls of recorders.
-#[derive(Clone, Debug)]
-pub struct Traced {
-    /// The shader, valid.
-    pub module: Module,
-    /// What validation found out about it.
-    pub info: ModuleInfo,
-    /// Where it tells something.
-    pub sites: Vec<Site>,
-}
-
-impl Traced {
-    /// Makes a copy of a valid shader that tells its values: of each function as much as `detail` says of its name. The
-    /// tier is that of the generated functions, and `source` the text that they were generated from.
-    ///
-    /// # Errors
-    /// [`Error::Invalid`] if the module or what became of it is not valid.
-    pub fn new(
-        module: &Module,
-        recorders: Recorders,
-        tier: Tier,
-        source: &str,
-        detail: impl Fn(&str) -> Detail,
-    ) -> Result<Self, Error> {
-        let mut text = match recorders {
-            Recorders::Writing => format!("const TRACE_WORDS: u32 = {ROOM}u;\n{WRITING}"),
-            Recorders::Silent => SILENT.to_owned(),
-        };
-        if tier.precision.format() == Format::Double {
-            text += match recorders {
-                Recorders::Writing => WRITING_DOUBLES,
-                Recorders::Silent => SILENT_DOUBLES,
-            };
-        }
-        Self::with_recorders(module, (&text, Entry::Module), tier, source, detail)
-    }
-
-    /// [`Self::new`] with other recorders, in WGSL; kinds of numbers that have none are not told.
-    pub(super) fn with_recorders(
-        module: &Module,
-        (text, entry): (&str, Entry),
-        tier: Tier,
-        source: &str,
-        detail: impl Fn(&str) -> Detail,
-    ) -> Result<Self, Error> {
-        let recorders = naga::front::wgsl::parse_str(text);
-        let recorders = recorders.map_err(|error| broken(&error.emit_to_string(text)))?;
-        let (mut module, recorders) = joined(module, &recorders, entry, tier)?;
-        let info = validate(&module)?;
-        let mut sites = Vec::new();
-        let handles: Vec<Handle<Function>> = module.functions.iter().map(|(h, _)| h).collect();
-        for handle in handles {
-            let name = module.functions[handle].name.clone().unwrap_or_default();
-            let detail = detail(&name);
-            if detail == Detail::Nothing {
-                continue;
-            }
-            let instrumented = Instrument::new(
-                &module,
-                &module.functions[handle],
-                &info[handle],
-                Scope {
-                    detail,
-                    format: tier.precision.format(),
-                    source,
-                    recorders: &recorders,
-                },
-                &mut sites,
-            )
-            .run();
-            module.functions[handle] = instrumented;
-        }
-        let info = validate(&module)?;
-        Ok(Self {
-            module,
-            info,
-            sites,
-        })
-    }
-}
-
-type Handles = FxHashMap<&'static str, Handle<Function>>;
-
-/// Nothing is generated where finished modules are joined.
-struct Finished;
-
-impl Provider for Finished {
-    fn provide(
-        &mut self,
-        _: &str,
-        _: &Function,
-        _: &mut Linker,
-    ) -> Result<Option<Function>, LowerError> {
-        Ok(None)
-    }
-}
-
-/// The module with the recorders in front of its functions.
-fn joined(
-    module: &Module,
-    texts: &Module,
-    entry: Entry,
-    tier: Tier,
-) -> Result<(Module, Handles), Error> {
-    // in the order of `Entry`; the library has what the recorders need
-    let mut linker = Linker::new(vec![module, texts, number_module(tier)]);
-    let mut found = Handles::default();
-    for name in RECORDED.map(Shape::recorder) {
-        let is_there = |(_, f): (_, &Function)| f.name.as_deref() == Some(name);
-        if texts.functions.iter().any(is_there) {
-            let handle = linker.function(name, &mut Finished);
-            let handle = handle.map_err(|error| broken(&format!("{error:?}")))?;
-            found.insert(name, handle);
-        }
-    }
-    linker
-        .link_entry_points(entry as usize, &mut Finished)
-        .map_err(|error| broken(&format!("{error:?}")))?;
-    Ok((linker.out, found))
-}
-
-fn validate(module: &Module) -> Result<ModuleInfo, Error> {
-    let wanted = Capabilities::default() | Capabilities::FLOAT64 | Capabilities::SHADER_INT64;
-    Validator::new(ValidationFlags::all(), wanted)
-        .validate(module)
-        .map_err(|error| broken(&format!("{:?}", error.as_inner())))
-}
-
-fn broken(reason: &str) -> Error {
-    Error::Invalid {
-        reason: format!("the shader cannot be traced: {reason}"),
-    }
-}
-
 /// How a function is to be instrumented.
 #[derive(Clone, Copy)]
-struct Scope<'m> {
-    detail: Detail,
-    format: Format,
-    source: &'m str,
-    recorders: &'m Handles,
+pub(super) struct Scope<'m> {
+    pub(super) detail: Detail,
+    /// That of the generated functions.
+    pub(super) format: Format,
+    pub(super) source: &'m str,
+    pub(super) recorders: &'m Handles,
 }
 
 /// One function on its way.
-struct Instrument<'m, 's> {
+pub(super) struct Instrument<'m, 's> {
     types: &'m UniqueArena<Type>,
     /// As it was.
     before: &'m Function,
@@ -248,15 +66,8 @@ struct Told<'a> {
     is_source: bool,
 }
 
-/// A number within a value.
-struct Part {
-    name: String,
-    path: Vec<u32>,
-    shape: Shape,
-}
-
 impl<'m, 's> Instrument<'m, 's> {
-    fn new(
+    pub(super) fn new(
         module: &'m Module,
         before: &'m Function,
         info: &'m FunctionInfo,
@@ -270,6 +81,7 @@ impl<'m, 's> Instrument<'m, 's> {
             writer: Writer::new(
                 module,
                 before,
+                info,
                 if scope.detail == Detail::Operations {
                     scope.source
                 } else {
@@ -283,7 +95,7 @@ impl<'m, 's> Instrument<'m, 's> {
         }
     }
 
-    fn run(mut self) -> Function {
+    pub(super) fn run(mut self) -> Function {
         let body = std::mem::take(&mut self.function.body);
         let mut out = Block::new();
         if self.scope.detail != Detail::Result {
@@ -507,7 +319,9 @@ impl<'m, 's> Instrument<'m, 's> {
         // templates hand over and take single precision
         let wide =
             !matches!(told.what, What::Argument | What::Result) || told.name.starts_with('[');
-        for part in self.parts(ty, wide) {
+        let pairs =
+            wide && self.scope.format == Format::Pair && self.scope.detail == Detail::Operations;
+        for part in parts(self.types, ty, pairs) {
             let Some(&recorder) = self.scope.recorders.get(part.shape.recorder()) else {
                 continue;
             };
@@ -575,74 +389,5 @@ impl<'m, 's> Instrument<'m, 's> {
             out.push(Statement::Emit(range), Span::UNDEFINED);
         }
         base
-    }
-
-    /// The numbers that a value of a type is made of, at most [`MAX_PARTS`]. `wide`: whether reals of generated functions
-    /// may be pairs here.
-    fn parts(&self, ty: &TypeInner, wide: bool) -> Vec<Part> {
-        let pairs =
-            wide && self.scope.format == Format::Pair && self.scope.detail == Detail::Operations;
-        let mut parts = Vec::new();
-        let mut stack = vec![(String::new(), Vec::new(), ty)];
-        while let Some((name, path, ty)) = stack.pop() {
-            if parts.len() >= MAX_PARTS {
-                break;
-            }
-            let below = |index: u32| [path.as_slice(), &[index]].concat();
-            if let Some(shape) = shape(ty, pairs) {
-                parts.push(Part { name, path, shape });
-                continue;
-            }
-            match ty {
-                TypeInner::Struct { members, .. } => {
-                    for (k, member) in (0u32..).zip(members).collect::<Vec<_>>().into_iter().rev() {
-                        let field = member.name.as_deref().unwrap_or_default();
-                        let inner = &self.types[member.ty].inner;
-                        stack.push((format!("{name}.{field}"), below(k), inner));
-                    }
-                }
-                TypeInner::Vector { size, scalar } => {
-                    for (k, letter) in (0..*size as u32).zip(["x", "y", "z", "w"]) {
-                        if let Some(shape) = scalar_shape(scalar.kind, scalar.width) {
-                            parts.push(Part {
-                                name: format!("{name}.{letter}"),
-                                path: below(k),
-                                shape,
-                            });
-                        }
-                    }
-                }
-                _ => {}
-            }
-        }
-        parts
-    }
-}
-
-fn shape(ty: &TypeInner, pairs: bool) -> Option<Shape> {
-    match *ty {
-        TypeInner::Scalar(scalar) => scalar_shape(scalar.kind, scalar.width),
-        TypeInner::Vector { size, scalar }
-            if scalar.kind == ScalarKind::Float && scalar.width == 4 =>
-        {
-            let count = size as u8;
-            Some(if pairs && count == 2 {
-                Shape::Pair
-            } else {
-                Shape::Single(count)
-            })
-        }
-        _ => None,
-    }
-}
-
-fn scalar_shape(kind: ScalarKind, width: u8) -> Option<Shape> {
-    match (kind, width) {
-        (ScalarKind::Float, 4) => Some(Shape::Single(1)),
-        (ScalarKind::Float, 8) => Some(Shape::Double),
-        (ScalarKind::Uint, 4) => Some(Shape::Word),
-        (ScalarKind::Sint, 4) => Some(Shape::Integer),
-        (ScalarKind::Bool, _) => Some(Shape::Truth),
-        _ => None,
     }
 }

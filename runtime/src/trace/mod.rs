@@ -12,33 +12,42 @@ mod inputs;
 mod instrument;
 mod operands;
 mod parting;
+mod parts;
+mod recorders;
 mod relevance;
 mod scan;
 mod site;
 mod text;
+mod traced;
 
 pub use cpu::{pixel_on_cpu, row_on_cpu};
 pub use fault::{Fault, first_fault};
 pub use gpu::GpuTracer;
 pub use inputs::{Access, Buffer, Inputs};
-pub use instrument::{Detail, Recorders, Traced};
+pub use instrument::Detail;
 pub use parting::{Parting, Row, distance, parting, rows};
+pub use recorders::Recorders;
 pub use scan::{Oddities, scan};
 pub use site::{Event, Operand, Shape, Site, Trace, Value, What};
+pub use traced::Traced;
 
+use pullback_compiler::link::is_stub;
 use pullback_compiler::module::DEMANDS;
 use pullback_compiler::{EvalModule, Picture, SceneModule};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::Error;
-use copies::copies;
+use copies::{Standing, standings};
 
-/// Drivers copy a function to where it is called; one of which there would be more copies than this does not tell what it
-/// does, which would take too long to compile.
+/// Copies of a small function in a shader, beyond which it does not tell what it does where room is limited.
 const MAX_COPIES: u64 = 2;
 
-/// A scene that tells everything that has a name in its template, and every operation of the formula.
-/// What the libraries of drawing and of numbers do by themselves is not told, nor small functions that are called from many
-/// places. `source` is the user's text.
+/// A scene that tells everything that has a name in its template, and every operation of the formula. What the libraries of
+/// drawing and of numbers do by themselves is not told. `source` is the user's text.
+///
+/// Drivers copy a function to where it is called, and some take minutes to compile a shader that tells at a thousand places.
+/// With a `limit` on places, functions of the template that are called from many places, and then those that are deepest in
+/// calls, do not tell what they do; the formula always does.
 ///
 /// # Errors
 /// [`Error::Invalid`] if the module is not valid.
@@ -47,27 +56,68 @@ pub fn traced_scene(
     scene: &SceneModule,
     source: &str,
     recorders: Recorders,
+    limit: Option<u64>,
 ) -> Result<Traced, Error> {
     let template = picture.scene.module();
-    let own = |name: &str| {
-        let mut functions = template
-            .functions
-            .iter()
-            .filter(|(_, f)| f.name.as_deref() == Some(name));
-        functions.any(|(_, f)| !pullback_compiler::link::is_stub(f))
+    let is_own = |name: &str| {
+        let mut functions = template.functions.iter();
+        functions.any(|(_, f)| f.name.as_deref() == Some(name) && !is_stub(f))
     };
-    let copies = copies(&scene.module);
-    Traced::new(&scene.module, recorders, scene.tier, source, |name| {
+    let detail = |name: &str| {
         if DEMANDS.contains(&name) {
             Detail::Operations
-        } else if copies.get(name).is_some_and(|&n| n > MAX_COPIES) {
-            Detail::Nothing
-        } else if own(name) {
+        } else if is_own(name) {
             Detail::Names
         } else {
             Detail::Nothing
         }
+    };
+    let all = Traced::new(&scene.module, recorders, scene.tier, source, detail)?;
+    let Some(limit) = limit else {
+        return Ok(all);
+    };
+    let quiet = quiet(&scene.module, &all.sites, limit);
+    if quiet.is_empty() {
+        return Ok(all);
+    }
+    Traced::new(&scene.module, recorders, scene.tier, source, |name| {
+        if quiet.contains(name) {
+            Detail::Nothing
+        } else {
+            detail(name)
+        }
     })
+}
+
+/// The functions that must not tell, so that those that do tell at `limit` places at most.
+fn quiet(module: &naga::Module, sites: &[Site], limit: u64) -> FxHashSet<String> {
+    let mut places: FxHashMap<&str, u64> = FxHashMap::default();
+    for site in sites {
+        *places.entry(&site.function).or_default() += 1;
+    }
+    let standings = standings(module);
+    let standing = |name: &str| {
+        let nowhere = Standing {
+            copies: 0,
+            depth: 0,
+        };
+        standings.get(name).copied().unwrap_or(nowhere)
+    };
+    let mut order: Vec<(&str, u64)> = places.into_iter().collect();
+    order.sort_by_key(|&(name, _)| (!DEMANDS.contains(&name), standing(name).depth, name));
+    let mut used = 0u64;
+    let mut quiet = FxHashSet::default();
+    for (name, count) in order {
+        let Standing { copies, .. } = standing(name);
+        let cost = count.saturating_mul(copies);
+        let is_formula = DEMANDS.contains(&name);
+        if is_formula || copies <= MAX_COPIES && used.saturating_add(cost) <= limit {
+            used = used.saturating_add(cost);
+        } else {
+            quiet.insert(name.to_owned());
+        }
+    }
+    quiet
 }
 
 /// An evaluation that tells every operation of the formula. `source` is the user's text.

@@ -6,7 +6,8 @@ use pullback_compiler::SceneModule;
 use pullback_compiler::module::DEMANDS;
 
 use super::Traced;
-use super::instrument::{Detail, Entry};
+use super::instrument::Detail;
+use super::recorders::Entry;
 use crate::{Error, Frame, Gpu, Pipeline, Renderer, RowSink, Size};
 
 const SCAN: &str = include_str!("scan.wgsl");

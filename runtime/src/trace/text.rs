@@ -1,5 +1,6 @@
 //! Operations of a shader, written as people write them.
 
+use naga::valid::FunctionInfo;
 use naga::{
     BinaryOperator, Expression, Function, Handle, Literal, Module, Statement, UnaryOperator,
 };
@@ -13,18 +14,25 @@ const DEPTH: usize = 3;
 pub(super) struct Writer<'m> {
     module: &'m Module,
     function: &'m Function,
+    info: &'m FunctionInfo,
     /// What the function was generated from; empty where it was not.
     source: &'m str,
     calls: FxHashMap<Handle<Expression>, &'m [Handle<Expression>]>,
 }
 
 impl<'m> Writer<'m> {
-    pub(super) fn new(module: &'m Module, function: &'m Function, source: &'m str) -> Self {
+    pub(super) fn new(
+        module: &'m Module,
+        function: &'m Function,
+        info: &'m FunctionInfo,
+        source: &'m str,
+    ) -> Self {
         let mut calls = FxHashMap::default();
         collect_calls(&function.body, &mut calls);
         Self {
             module,
             function,
+            info,
             source,
             calls,
         }
@@ -208,15 +216,17 @@ impl<'m> Writer<'m> {
     /// `.x`, `.name` or `[2]`.
     fn member(&self, base: Handle<Expression>, index: u32) -> String {
         let place = index as usize;
-        let global = match self.function.expressions[base] {
-            Expression::GlobalVariable(variable) => Some(self.module.global_variables[variable].ty),
-            _ => None,
-        };
-        if let Some(naga::TypeInner::Struct { members, .. }) =
-            global.map(|ty| &self.module.types[ty].inner)
-        {
+        let types = &self.module.types;
+        let mut ty = self.info[base].ty.inner_with(types);
+        if let naga::TypeInner::Pointer { base, .. } = *ty {
+            ty = &types[base].inner;
+        }
+        if let naga::TypeInner::Struct { members, .. } = ty {
             let name = members.get(place).and_then(|m| m.name.as_deref());
             return format!(".{}", name.unwrap_or_default());
+        }
+        if let naga::TypeInner::Array { .. } = ty {
+            return format!("[{index}]");
         }
         match ["x", "y", "z", "w"].get(place) {
             Some(letter) => format!(".{letter}"),

@@ -242,7 +242,7 @@ impl Table {
         factors: &mut Factors,
     ) {
         let notes = row.last().copied().unwrap_or("");
-        if notes.contains("coarse") || format == Format::Single && notes.contains("overflow") {
+        if notes.contains("coarse") || format != Format::Double && notes.contains("overflow") {
             return;
         }
         factors.rows += 1;

@@ -7,7 +7,7 @@ use pullback_tests::accuracy::error::Judge;
 use pullback_tests::accuracy::evaluators::Machine;
 use pullback_tests::accuracy::tables::Domain;
 
-use super::{label, machines, numbers, run, units};
+use super::{machines, numbers, run, units};
 
 /// f(g(x)) = x for x in a range.
 struct Inverse {
@@ -129,9 +129,7 @@ fn fault(inverse: &Inverse, machine: &Machine, points: &[f64]) -> Option<String>
         wrong.then(|| {
             format!(
                 "{}: {f}({g}({x:e})) = {:e} with the slope {}; allowed {value:e} and {slope:e}",
-                label(machine),
-                row[0],
-                row[1]
+                machine, row[0], row[1]
             )
         })
     })
@@ -174,7 +172,7 @@ fn the_circle_has_no_slope() {
             assert!(
                 row[1].abs() <= allowed,
                 "{}: slope {:e} at {x:?}, above {allowed:e}",
-                label(machine),
+                machine,
                 row[1]
             );
             let near = 2.0 * (sin * unit(s) * s + cos * unit(c) * c) + 3.0 * unit(1.0);
@@ -229,7 +227,7 @@ fn complex_functions_of_their_inverses_are_the_identity() {
                 assert!(
                     error <= allowed * (1.0 + 1e-6),
                     "{}: {text} at {z:?} is {row:?}",
-                    label(machine)
+                    machine
                 );
                 if !is_pair {
                     let error = (row[2] - 1.0).hypot(row[3]);
@@ -237,7 +235,7 @@ fn complex_functions_of_their_inverses_are_the_identity() {
                     assert!(
                         error <= allowed,
                         "{}: slope of {text} at {z:?} is {row:?}",
-                        label(machine)
+                        machine
                     );
                 }
             }

@@ -6,7 +6,7 @@ use pullback_compiler::What;
 use pullback_compiler::lower::Precision;
 use pullback_tests::accuracy::error::Judge;
 
-use super::{label, machines, run};
+use super::{machines, run};
 
 #[test]
 fn complex_limits_at_infinity_are_reached() {
@@ -57,7 +57,7 @@ fn complex_limits_at_infinity_are_reached() {
                 if !(near(got[0], limit[0]) && near(got[1], limit[1])) {
                     wrong.push(format!(
                         "{}: {name}({at:?}) = {got:?}, not {limit:?}",
-                        label(machine)
+                        machine
                     ));
                 }
             }
@@ -73,7 +73,7 @@ fn complex_limits_at_infinity_are_reached() {
             let source = format!("f(z: complex) = {text}\n");
             let got = &run(machine, &source, What::Value, &[at.to_vec()])[0];
             if !(near(got[0], limit[0]) && near(got[1], limit[1])) {
-                wrong.push(format!("{}: {text} at {at:?} is {got:?}", label(machine)));
+                wrong.push(format!("{}: {text} at {at:?} is {got:?}", machine));
             }
         }
     }
@@ -94,7 +94,7 @@ fn reciprocals_of_what_overflows_vanish_with_their_slopes() {
             assert!(
                 rows.iter().flatten().all(small),
                 "{}: {text}: {rows:?}",
-                label(machine)
+                machine
             );
         }
         if machine.precision() == Some(Precision::Extended) {
@@ -108,7 +108,7 @@ fn reciprocals_of_what_overflows_vanish_with_their_slopes() {
             assert!(
                 rows.iter().flatten().all(small),
                 "{}: {text}: {rows:?}",
-                label(machine)
+                machine
             );
         }
     }
@@ -135,11 +135,7 @@ fn polygammas_are_reflected_far_left_of_zero() {
         ] {
             let got = run_one("trigamma", at)[0];
             let unit = machine.format().unit(exact);
-            assert!(
-                (got - exact).abs() < 64.0 * unit,
-                "{}: {got:e}",
-                label(machine)
-            );
+            assert!((got - exact).abs() < 64.0 * unit, "{}: {got:e}", machine);
         }
         // ψ ≈ log|z| - 1/(i y), with digits that a rounded ⌊x + ½⌋ has not
         let beside = run_one("digamma", [-8_886_501.0, f64::from(3.0e-30_f32)]);

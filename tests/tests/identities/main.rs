@@ -28,14 +28,6 @@ fn machines() -> Vec<Machine> {
     machines
 }
 
-/// What a machine is called in a message.
-fn label(machine: &Machine) -> String {
-    match machine {
-        Machine::Reference => "f64 reference".to_owned(),
-        Machine::Gpu(gpu, tier) => format!("{} ({})", gpu.adapter().name, tier.name()),
-    }
-}
-
 /// float32 numbers of every size within 2^±exponent, of either sign, and both zeros.
 fn numbers(count: usize, exponent: f64) -> Vec<f64> {
     let sign = prop::sample::select(vec![1.0, -1.0]);
@@ -113,10 +105,7 @@ fn symmetric(functions: &[&str], domain: &str, turn: &[f64], turned: &[f64]) {
                     .zip(b)
                     .all(|((a, s), b)| same(a * s, *b));
                 if !equal {
-                    wrong.push(format!(
-                        "{}: {name} at {point:?}: {a:?}, {b:?}",
-                        label(machine)
-                    ));
+                    wrong.push(format!("{}: {name} at {point:?}: {a:?}, {b:?}", machine));
                     break;
                 }
             }
@@ -183,7 +172,7 @@ fn sine_and_cosine_are_on_the_unit_circle() {
             assert!(
                 error <= allowed,
                 "{} at {point:?}: {error:e} above {allowed:e}",
-                label(machine)
+                machine
             );
         }
     }
@@ -209,7 +198,7 @@ fn exponentials_undo_logarithms() {
             assert!(
                 (row[0] - x).abs() <= allowed,
                 "{}: exp(log({x:e})) = {:e}",
-                label(machine),
+                machine,
                 row[0]
             );
         }
@@ -255,12 +244,12 @@ fn growing_functions_grow() {
                     assert!(
                         fall <= allowed * machine.format().unit(low),
                         "{}: {name} falls after {at:?}",
-                        label(machine)
+                        machine
                     );
                     assert!(
                         pair[0][1] >= 0.0,
                         "{}: {name}′ at {at:?} is {}",
-                        label(machine),
+                        machine,
                         pair[0][1]
                     );
                 }
@@ -307,11 +296,7 @@ fn limits_at_infinity_are_reached() {
             )[0][0];
             let within = got == limit
                 || (got - limit).abs() <= bound(name, machine) * machine.format().unit(limit);
-            assert!(
-                within,
-                "{}: {name}({at}) = {got}, not {limit}",
-                label(machine)
-            );
+            assert!(within, "{}: {name}({at}) = {got}, not {limit}", machine);
         }
         // slopes that flatten out
         for (name, at) in [
@@ -329,7 +314,7 @@ fn limits_at_infinity_are_reached() {
                 What::Gradient,
                 &[vec![at]],
             )[0][1];
-            assert!(got == 0.0, "{}: {name}′({at}) = {got}", label(machine));
+            assert!(got == 0.0, "{}: {name}′({at}) = {got}", machine);
         }
     }
 }
@@ -381,7 +366,7 @@ fn directions_have_slopes_that_do_not_cancel() {
                     assert!(
                         (got - exact).abs() <= 12.0 * unit || exact.abs() < 2f64.powi(-80),
                         "{}: {source} at {point:?}: {row:?}, not {exact:e}",
-                        label(machine)
+                        machine
                     );
                 }
             }

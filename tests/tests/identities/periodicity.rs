@@ -8,7 +8,7 @@ use pullback_tests::accuracy::error::Judge;
 use pullback_tests::accuracy::evaluators::Machine;
 use pullback_tests::accuracy::tables::Domain;
 
-use super::{label, machines, numbers, run, run_twice, units};
+use super::{machines, numbers, run, run_twice, units};
 
 /// p = 2πq + δ, and the step of the x for which x + p is exact in float32.
 struct Turn {
@@ -104,7 +104,7 @@ fn waves_and_their_slopes_repeat() {
                     assert!(
                         (got - expected).abs() <= allowed * (1.0 + 1e-6) + OWN,
                         "{}: {name}({} + {}) = {got:e}, not {expected:e}",
-                        label(machine),
+                        machine,
                         xs[k],
                         turn.whole
                     );
@@ -149,7 +149,7 @@ fn tangents_repeat() {
                 assert!(
                     (got - expected).abs() <= allowed * (1.0 + 1e-6) + own,
                     "{}: tan({x} + {whole}) = {got:e}, not {expected:e}",
-                    label(machine)
+                    machine
                 );
             }
         }
@@ -230,7 +230,7 @@ fn complex_exponentials_and_waves_repeat() {
                     assert!(
                         error <= allowed * (1.0 + 1e-6) + OWN * size,
                         "{}: {name} of {z:?} and {}: {:?}, not {expected:?}",
-                        label(machine),
+                        machine,
                         turn.whole,
                         far[k]
                     );
@@ -266,7 +266,7 @@ fn waves_of_twice_the_angle_follow() {
                     (got - expected).abs()
                         <= allowed * (1.0 + 1e-6) + OWN * expected.abs().max(1e-30),
                     "{}: {name}(2 · {x:e}) = {got:e}, not {expected:e}",
-                    label(machine)
+                    machine
                 );
             }
         }
@@ -297,7 +297,7 @@ fn angles_are_found_again() {
             assert!(
                 (row[0] - x).abs() <= allowed * (1.0 + 1e-6),
                 "{}: {x} became {}",
-                label(machine),
+                machine,
                 row[0]
             );
         }

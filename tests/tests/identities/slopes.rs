@@ -3,7 +3,7 @@
 
 use pullback_compiler::What;
 
-use super::{label, machines, numbers, run_twice};
+use super::{machines, numbers, run_twice};
 
 /// Whether two derivatives are the same number, zeros of either sign alike.
 fn equal(a: f64, b: f64) -> bool {
@@ -37,10 +37,7 @@ fn symmetric(functions: &[&str], domain: &str, turn: &[f64], turned: &[f64]) {
                     .zip(b)
                     .all(|((a, s), b)| equal(a * s, *b));
                 if !kept {
-                    wrong.push(format!(
-                        "{}: {name}′ at {point:?}: {a:?}, {b:?}",
-                        label(machine)
-                    ));
+                    wrong.push(format!("{}: {name}′ at {point:?}: {a:?}, {b:?}", machine));
                     break;
                 }
             }

@@ -131,7 +131,7 @@ impl Builder<'_> {
 
     fn gradient(&mut self, value: Id, by: &[Id], subject: Subject) -> Option<SmallVec<[Id; 4]>> {
         self.charge(subject)?;
-        let stable = self.to_differentiate(&[value]);
+        let stable = self.prepared(&[value]);
         match gradient(&mut self.graph, stable[0], by) {
             Ok(gradient) => Some(gradient.partials.into_iter().collect()),
             Err(missing) => self.no_derivative(missing, subject),

@@ -79,7 +79,7 @@ impl Builder<'_> {
     ) -> Option<SmallVec<[Id; 4]>> {
         self.charge(subject)?;
         let one = self.graph.real(1.0);
-        let stable = self.to_differentiate(roots);
+        let stable = self.prepared(roots);
         match forward(&mut self.graph, &stable, &[(leaf, one)]) {
             Ok(tangents) => {
                 let zero = self.graph.real(0.0);
@@ -102,7 +102,7 @@ impl Builder<'_> {
             self.not_holomorphic(value, leaf, subject);
             return None;
         };
-        let stable = self.to_differentiate(&[root]);
+        let stable = self.prepared(&[root]);
         match jet(&mut self.graph, stable[0], ComplexVariable::Whole(leaf)) {
             Ok(jet) if jet.dzbar.is_none() => Some(Value::Scalar(jet.dz)),
             Ok(_) => {
@@ -114,7 +114,7 @@ impl Builder<'_> {
     }
 
     /// The form in which roots are differentiated.
-    pub(super) fn to_differentiate(&mut self, roots: &[Id]) -> Vec<Id> {
+    pub(super) fn prepared(&mut self, roots: &[Id]) -> Vec<Id> {
         match before_derivative(&mut self.graph, roots, self.rewrites) {
             Some(stable) => {
                 self.rewrote = true;

@@ -50,16 +50,14 @@ impl<'a> Report<'a> {
         writeln!(out, "a  {}\nb  {}", self.a, self.b)?;
         writeln!(out, "   {}x{} pixels\n", size.width, size.height)?;
         writeln!(out, "linear light, of 1      red      green       blue")?;
-        let rows: [(&str, fn(&Channel) -> f64); 4] = [
-            ("greatest", |c| c.max),
-            ("mean", |c| c.mean),
-            ("root mean square", |c| c.rms),
-            ("99.9 % are below", |c| c.p999),
-        ];
-        for (title, value) in rows {
+        let row = |out: &mut dyn Write, title: &str, value: fn(&Channel) -> f64| {
             let [r, g, b] = numeric.channels.each_ref().map(value);
-            writeln!(out, "{title:<17}{r:>10.6} {g:>10.6} {b:>10.6}")?;
-        }
+            writeln!(out, "{title:<17}{r:>10.6} {g:>10.6} {b:>10.6}")
+        };
+        row(&mut out, "greatest", |c| c.max)?;
+        row(&mut out, "mean", |c| c.mean)?;
+        row(&mut out, "root mean square", |c| c.rms)?;
+        row(&mut out, "99.9 % are below", |c| c.p999)?;
         let percent = |share: f64| format!("{:.4} %", 100.0 * share);
         let [coarse, fine] = numeric.shares.map(percent);
         writeln!(out, "\npixels that differ  {}", percent(numeric.differing))?;

@@ -10,6 +10,7 @@ use pullback_runtime::{Gpu, Size};
 use serde::Serialize;
 
 use super::json::{Number, Told, put, told};
+use super::place::limit;
 use super::table::described;
 use super::{Format, ProbeArguments, number};
 use crate::cli::Console;
@@ -78,6 +79,7 @@ fn kinds(
         scene,
         &subject.source.text,
         Recorders::Writing,
+        limit(Some(gpu)),
     )?;
     let mut tracer = None;
     let mut kinds = [

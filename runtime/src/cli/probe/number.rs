@@ -37,7 +37,7 @@ pub(super) fn units(ulps: f64) -> String {
         "0".into()
     } else if !ulps.is_finite() {
         "∞".into()
-    } else if ulps < 0.01 || ulps >= 1e5 {
+    } else if !(0.01..1e5).contains(&ulps) {
         format!("{ulps:.0e}")
     } else if ulps < 10.0 {
         format!("{ulps:.2}")

@@ -36,7 +36,20 @@ impl fmt::Display for Place<'_> {
     }
 }
 
-/// A compiled shader, its name for errors aside.
+/// Places at which a traced scene may tell something on a software adapter, and on hardware.
+const ON_SOFTWARE: u64 = 250;
+const ON_HARDWARE: u64 = 1500;
+
+/// How many places a traced scene may have on a device; as many as there are where none takes part.
+pub(super) fn limit(gpu: Option<&Gpu>) -> Option<u64> {
+    Some(if gpu?.adapter().is_software() {
+        ON_SOFTWARE
+    } else {
+        ON_HARDWARE
+    })
+}
+
+/// A compiled shader.
 enum Shader {
     Scene(Box<SceneModule>, Vec<u8>),
     Evaluation(Box<EvalModule>),
@@ -53,7 +66,8 @@ impl Place<'_> {
         console: &Console,
     ) -> Result<(Vec<Site>, Vec<Column>), Failure> {
         let shader = self.compile(subject, tier, console)?;
-        let silent = shader.traced(subject, Recorders::Silent)?;
+        let limit = limit(gpu);
+        let silent = shader.traced(subject, Recorders::Silent, limit)?;
         let mut columns = Vec::new();
         for machine in Machine::ALL {
             if !arguments.on.contains(&machine) {
@@ -113,7 +127,7 @@ impl Place<'_> {
             }
             _ => return Ok(Trace::default()),
         };
-        let traced = shader.traced(subject, Recorders::Writing)?;
+        let traced = shader.traced(subject, Recorders::Writing, limit(Some(gpu)))?;
         GpuTracer::new(gpu, &traced, &inputs)?.trace(&inputs)
     }
 
@@ -139,10 +153,17 @@ impl Place<'_> {
 }
 
 impl Shader {
-    fn traced(&self, subject: &Subject, recorders: Recorders) -> Result<Traced, Error> {
+    fn traced(
+        &self,
+        subject: &Subject,
+        recorders: Recorders,
+        limit: Option<u64>,
+    ) -> Result<Traced, Error> {
         let text = &subject.source.text;
         match self {
-            Self::Scene(scene, _) => trace::traced_scene(subject.picture(), scene, text, recorders),
+            Self::Scene(scene, _) => {
+                trace::traced_scene(subject.picture(), scene, text, recorders, limit)
+            }
             Self::Evaluation(module) => trace::traced_evaluation(module, text, recorders),
         }
     }

@@ -214,12 +214,8 @@ impl<'m> Translator<'m> {
         let results = (0..count)
             .map(|_| self.result_of(&all))
             .collect::<Result<Parts, _>>()?;
-        self.library.push(LibraryCall {
-            stand,
-            operands,
-            results: results.clone(),
-            format,
-        });
+        let call = LibraryCall::new(stand, operands, results.clone(), format);
+        self.library.push(call);
         let place = self.library.len() as u32 - 1;
         let d = results.first().copied().ok_or_else(unknown)?;
         self.emit(Inst::new(Op::Library).to(d).at(place));
