@@ -217,12 +217,14 @@ fn the_opacity_of_a_step_is_right_for_any_length() {
     }
 }
 
+/// Optical depth of a chord at a distance from the centre.
+type Depth = fn(f64) -> f64;
+
 /// The transmittance of a medium that emits nothing, in front of a white background, against its closed forms.
 #[test]
 fn transmittance_has_its_closed_forms() {
     let Some(gpu) = device() else { return };
-    // optical depth of a chord at distance b from the centre
-    let forms: [(usize, fn(f64) -> f64); 2] = [
+    let forms: [(usize, Depth); 2] = [
         (1, |b| {
             2.0 * (0.5 * std::f64::consts::PI).sqrt() * (-b * b / 0.5).exp()
         }),
