@@ -200,8 +200,8 @@ fn fixtures(name: &str) -> Vec<String> {
     texts.collect()
 }
 
-/// Every program that we have: the gallery, the surfaces, the wrong programs, those of the language reference, and the texts of the
-/// parser's suites.
+/// Every program that we have: the gallery, the surfaces, the wrong programs, those of the language reference, and the
+/// texts of the parser's suites.
 #[must_use]
 pub fn all_programs() -> Vec<String> {
     let drawn = gallery().into_iter().chain(surfaces()).map(|s| s.text);

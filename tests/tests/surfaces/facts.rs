@@ -1,6 +1,6 @@
 //! What is known of each surface of docs/surfaces, from its literature.
 
-use std::f64::consts::SQRT_2;
+use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 use crate::group::{Symmetry, Vec3};
 
@@ -86,7 +86,7 @@ const ORIGIN: fn() -> Vec<Vec3> = || vec![[0.0; 3]];
 const ENDRASS: &str = "Endraß 1995, \"Flächen mit vielen Doppelpunkten\"";
 /// As MathWorld reports them.
 const NORDSTRAND: &str = "Nordstrand, in MathWorld";
-const HAUSER: &str = "Hauser, \"Gallery of algebraic surfaces\"";
+const HAUSER: &str = "\"Herwig Hauser Classic\", imaginary.org";
 const FISCHER: &str = "Fischer (ed.) 1986, \"Mathematical Models\"";
 
 /// The surfaces, by name.
@@ -115,7 +115,7 @@ pub const SURFACES: &[Surface] = &[
         4,
         Symmetry::Mirrors(&[0, 1, 2]),
         "double curves",
-        "Fischer (ed.) 1986, \"Mathematical Models\"",
+        FISCHER,
     )
     .holds(|u, v| [0.5 * u.cos(), v.cos() + 0.5 * u.sin(), v.sin()]),
     surface(
@@ -249,7 +249,7 @@ pub const SURFACES: &[Surface] = &[
         4,
         Symmetry::Cube,
         "smooth",
-        "Fischer (ed.) 1986, \"Mathematical Models\"",
+        FISCHER,
     ),
     surface(
         "fresnel",
@@ -308,7 +308,7 @@ pub const SURFACES: &[Surface] = &[
         3,
         Symmetry::HalfTurn(0),
         "not claimed",
-        "Fischer (ed.) 1986, \"Mathematical Models\"",
+        FISCHER,
     )
     .holds(|u, v| {
         let r = 1.0 + v * (0.5 * u).cos();
@@ -403,7 +403,7 @@ pub const SURFACES: &[Surface] = &[
         4,
         Symmetry::RevolutionBoth(2),
         "a conic at infinity",
-        "Fischer (ed.) 1986, \"Mathematical Models\"",
+        FISCHER,
     )
     .holds(|u, v| {
         let r = 1.0 + 0.4 * v.cos();
@@ -424,7 +424,7 @@ const BARTH_DECIC: &[Vec3] = &[
     [1.85123, 0.43702, 0.0],
     [1.0, 0.0, 0.0],
     [0.92561, 0.35355, 0.13505],
-    [0.70711, 0.16693, 0.0],
+    [FRAC_1_SQRT_2, 0.16693, 0.0],
     [0.61803, 0.0, 0.0],
     [0.57206, 0.21851, 0.08346],
 ];
@@ -453,14 +453,14 @@ const TOGLIATTI: &[Vec3] = &[
 ];
 
 const ENDRASS_OCTIC: &[Vec3] = &[
-    [0.70711, 0.0, 0.0],
-    [0.70711, 0.29289, 0.20711],
+    [FRAC_1_SQRT_2, 0.0, 0.0],
+    [FRAC_1_SQRT_2, 0.29289, 0.20711],
     [0.91018, 0.0, 0.5],
     [1.0, 0.41421, 0.91421],
     [1.0, 0.41421, 0.5],
     [1.20711, 0.5, 0.0],
-    [1.41421, 0.0, 1.5],
-    [1.41421, 0.0, 0.5],
+    [SQRT_2, 0.0, 1.5],
+    [SQRT_2, 0.0, 0.5],
     [2.41421, 1.0, 2.91421],
     [2.41421, 1.0, 1.5],
 ];

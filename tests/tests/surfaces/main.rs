@@ -4,6 +4,7 @@
 mod algebra;
 mod facts;
 mod group;
+mod lines;
 mod polynomial;
 mod program;
 mod rays;

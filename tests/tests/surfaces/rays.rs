@@ -36,6 +36,8 @@ pub struct Counts {
     pub invented: usize,
     /// It shows another than the first.
     pub displaced: usize,
+    /// Greatest error of the depths that are right, in millionths of the box's diagonal, rounded up.
+    pub off: usize,
     /// The depth is right, the normal off by more than a degree.
     pub tilted: usize,
 }
@@ -140,9 +142,8 @@ impl Camera {
     /// Where the ray is in the box.
     fn span(&self, direction: Vec3) -> Option<[f64; 2]> {
         let mut span = [0.0, f64::INFINITY];
-        for k in 0..3 {
-            let wall =
-                |side: f64| (self.center[k] + side * self.half[k] - self.origin[k]) / direction[k];
+        for (k, step) in direction.iter().enumerate() {
+            let wall = |side: f64| (self.center[k] + side * self.half[k] - self.origin[k]) / step;
             let (a, b) = (wall(-1.0), wall(1.0));
             span = [span[0].max(a.min(b)), span[1].min(a.max(b))];
         }
@@ -249,10 +250,12 @@ fn judge(
     };
     let depth = dot(along(hit, camera.origin, -1.0), direction);
     let diagonal = 2.0 * dot(camera.half, camera.half).sqrt();
-    if (depth - root.at).abs() > DEPTH * diagonal {
+    let off = (depth - root.at).abs() / diagonal;
+    if off > DEPTH {
         counts.displaced += 1;
         return;
     }
+    counts.off = counts.off.max((1e6 * off).ceil() as usize);
     let p = along(camera.origin, direction, root.at);
     let slope = [0, 1, 2].map(|k| gradient[k].at(p).value);
     let cosine = dot(slope, found.normal).abs() / dot(slope, slope).sqrt();

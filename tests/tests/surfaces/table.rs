@@ -102,15 +102,15 @@ fn measured() -> Vec<Counts> {
 
 fn row(surface: &Surface, c: &Counts) -> String {
     format!(
-        "| {} | {} | {} | {} | {} | {} | {} |",
-        surface.name, c.hits, c.grazing, c.missed, c.invented, c.displaced, c.tilted
+        "| {} | {} | {} | {} | {} | {} | {} | {} |",
+        surface.name, c.hits, c.grazing, c.missed, c.invented, c.displaced, c.off, c.tilted
     )
 }
 
 fn rays(all: &[Counts]) -> String {
     let mut out = String::from(
-        "| Surface | hits | not judged | missed | invented | displaced | tilted |\n\
-         | --- | --- | --- | --- | --- | --- | --- |\n",
+        "| Surface | hits | not judged | missed | invented | displaced | off, 10⁻⁶ | tilted |\n\
+         | --- | --- | --- | --- | --- | --- | --- | --- |\n",
     );
     for (surface, counts) in SURFACES.iter().zip(all) {
         let _ = writeln!(out, "{}", row(surface, counts));
