@@ -2,6 +2,7 @@
 //! them against roots along rays.
 
 mod algebra;
+mod coordinates;
 mod facts;
 mod group;
 mod lines;
