@@ -62,6 +62,12 @@ pub fn gallery() -> Vec<Source> {
     files("docs/gallery", "pull")
 }
 
+/// Algebraic surfaces.
+#[must_use]
+pub fn surfaces() -> Vec<Source> {
+    files("docs/surfaces", "pull")
+}
+
 /// A diagnostic that a wrong program must give.
 #[derive(Clone, Debug)]
 pub struct Expected {
@@ -194,14 +200,14 @@ fn fixtures(name: &str) -> Vec<String> {
     texts.collect()
 }
 
-/// Every program that we have: the gallery, the wrong programs, those of the language reference, and the texts of the
-/// parser's suites.
+/// Every program that we have: the gallery, the surfaces, the wrong programs, those of the language reference, and the
+/// texts of the parser's suites.
 #[must_use]
 pub fn all_programs() -> Vec<String> {
-    let gallery = gallery().into_iter().map(|s| s.text);
+    let drawn = gallery().into_iter().chain(surfaces()).map(|s| s.text);
     let wrong = wrong_programs().into_iter().map(|p| p.text);
     let document = blocks("docs/language.md").into_iter().map(|b| b.text);
     let fixtures = ["parse.txt", "pasted.txt", "malformed.txt", "format.txt"].map(fixtures);
-    let all = gallery.chain(wrong).chain(document);
+    let all = drawn.chain(wrong).chain(document);
     all.chain(fixtures.into_iter().flatten()).collect()
 }
