@@ -42,8 +42,8 @@ pub fn draw(gpu: &Gpu, source: &str, size: [u32; 2], samples: u32, time: f64) ->
 }
 
 /// Linear light of each pixel of the first picture of a program, row by row, as the shader computes it.
-pub fn draw_linear(gpu: &Gpu, source: &str, size: [u32; 2]) -> Vec<Rgb> {
-    let rows = rendered(gpu, source, size, 1, 0.0, Pipeline::Linear);
+pub fn draw_linear(gpu: &Gpu, source: &str, size: [u32; 2], samples: u32) -> Vec<Rgb> {
+    let rows = rendered(gpu, source, size, samples, 0.0, Pipeline::Linear);
     let number = |at: &[u8]| f64::from(f32::from_le_bytes([at[0], at[1], at[2], at[3]]));
     rows.chunks_exact(16)
         .map(|pixel| [0, 4, 8].map(|at| number(&pixel[at..at + 4])))

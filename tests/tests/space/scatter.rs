@@ -115,7 +115,7 @@ impl Case {
 
     /// Radiance of each pixel as the scene draws it.
     fn drawn(&self, gpu: &Gpu, camera: &Camera, more: &str) -> Vec<Rgb> {
-        draw_linear(gpu, &self.source(camera, more), camera.size)
+        draw_linear(gpu, &self.source(camera, more), camera.size, 1)
             .into_iter()
             .map(|pixel| pixel.map(|c| c / EXPOSURE))
             .collect()
@@ -127,7 +127,7 @@ impl Case {
         pixels[pixels.len() / 2]
     }
 
-    fn to_light(&self, camera: &Camera) -> Vec3 {
+    fn light_direction(&self, camera: &Camera) -> Vec3 {
         let yaw = (camera.yaw + self.light_angles[0]).to_radians();
         let pitch = self.light_angles[1].to_radians();
         [
@@ -155,7 +155,7 @@ impl Case {
         let Some([near, far]) = ray.cube(HALF) else {
             return 0.0;
         };
-        let light = self.to_light(camera);
+        let light = self.light_direction(camera);
         let direct = self.light[k] * phase_function(self.g, dot(light, ray.direction));
         let [scattering, extinction] = self.coefficients(k);
         let source = |t: f64| {
@@ -388,7 +388,7 @@ fn without_scattering_it_is_the_transmittance_of_volume() {
         case.formula,
         ASIDE.settings()
     );
-    let [cloud, gas] = [cloud, gas].map(|source| draw_linear(&gpu, &source, ASIDE.size));
+    let [cloud, gas] = [cloud, gas].map(|source| draw_linear(&gpu, &source, ASIDE.size, 1));
     let through = |p: &&Rgb| p[0] < 0.9;
     assert!(gas.iter().filter(through).count() > 10);
     for (c, g) in cloud.iter().zip(&gas) {
@@ -435,7 +435,7 @@ fn rays_end_where_nothing_more_is_seen() {
     let white = black
         .source(&ALONG_X, "")
         .replace("background = (0, 0, 0)", "background = (1, 1, 1)");
-    for pixel in draw_linear(&gpu, &white, ALONG_X.size) {
+    for pixel in draw_linear(&gpu, &white, ALONG_X.size, 1) {
         assert!(pixel.iter().all(|c| *c < 6e-4), "{pixel:?}");
     }
     // seen from behind the light most of it comes from far inside, and is as much as it takes to be seen
@@ -459,4 +459,27 @@ fn rays_end_where_nothing_more_is_seen() {
     assert!(wanted[0] > 1e-5);
     let left_out = EXPOSURE * (wanted[0] - found[0]).abs();
     assert!(left_out < 6e-4, "{found:?}, not {wanted:?}");
+}
+
+/// The samples of a pixel are the pixels of a larger picture: no loop ends before its time because of how many there are.
+#[test]
+fn supersamples_of_a_cloud_of_noise_are_whole() {
+    let Some(gpu) = device() else { return };
+    let gallery = include_str!("../../../docs/gallery/cloud.pull");
+    let plain = "f(p: vec3) = 0.3 + fbm(1.5 p)\nshow scatter(f) { edge_width = 0 }";
+    for source in [gallery, plain] {
+        let [width, height] = [16, 12];
+        let coarse = draw_linear(&gpu, source, [width, height], 2);
+        let fine = draw_linear(&gpu, source, [2 * width, 2 * height], 1);
+        for (k, found) in (0u32..).zip(&coarse) {
+            let at = (4 * width * (k / width) + 2 * (k % width)) as usize;
+            let row = 2 * width as usize;
+            let four = [at, at + 1, at + row, at + row + 1];
+            for channel in 0..3 {
+                let wanted: f64 = four.iter().map(|&p| 0.25 * fine[p][channel]).sum();
+                let error = (found[channel] - wanted).abs();
+                assert!(error < 1e-4, "{source}, pixel {k}: {found:?}, not {wanted}");
+            }
+        }
+    }
 }
