@@ -238,8 +238,9 @@ fn write(out: &mut String, tree: Tree<'_>, id: ExprId, level: Level) {
                     | Expr::If { .. }
                     | Expr::Piecewise { .. } => false,
                     Expr::Unary {
-                        op: UnaryOp::Abs, ..
-                    } => !in_bars,
+                        op: UnaryOp::Abs,
+                        arg,
+                    } => !in_bars && !begins_barred(tree.exprs, *arg),
                     _ => true,
                 };
                 if stands_alone && level_of(&tree.exprs[id]) >= Level::Power {
@@ -277,6 +278,26 @@ fn leftmost(exprs: &Exprs, mut id: ExprId) -> ExprId {
                 next
             }
             _ => return id,
+        }
+    }
+}
+
+/// Whether the text of an expression may begin with a bar: with one before it, it would look like `||`.
+fn begins_barred(exprs: &Exprs, mut id: ExprId) -> bool {
+    loop {
+        id = match &exprs[id] {
+            Expr::Unary {
+                op: UnaryOp::Abs, ..
+            } => return true,
+            Expr::Binary { lhs: first, .. }
+            | Expr::Compare { first, .. }
+            | Expr::Member { base: first, .. }
+            | Expr::Where { body: first, .. }
+            | Expr::Unary {
+                op: UnaryOp::Factorial,
+                arg: first,
+            } => *first,
+            _ => return false,
         }
     }
 }

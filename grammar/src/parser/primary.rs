@@ -41,7 +41,7 @@ impl Parser<'_> {
         let primes = self.primes();
         let opens = self.at(TokenKind::LParen);
         match self.role_of(&mut name) {
-            Role::Unknown if opens && is_adjacent && is_conversion(&name.text) => {
+            Role::Unknown if opens && is_adjacent && primes == 0 && is_conversion(&name.text) => {
                 self.conversion(&name)
             }
             Role::Function if self.at(TokenKind::Bar) && self.form_of(&name).is_none() => {

@@ -396,8 +396,13 @@ impl Translator<'_> {
     fn file(&mut self) {
         self.begin_statement();
         while self.kind() != TokenKind::End {
+            let here = self.at;
             if self.statement_begins() {
                 self.begin_statement();
+            }
+            if self.at > here {
+                // a definition may have been read to its end
+                continue;
             }
             self.item();
             if std::mem::take(&mut self.has_given_up) {
