@@ -68,10 +68,10 @@ fn the_record_has_the_members_of_the_template() {
             let name = shared.trim_end_matches(',').to_lowercase();
             let spec = volume.setting(&name).expect("a shared setting");
             named.insert(spec.name.to_owned());
-        } else if let Some(name) = line.strip_prefix('"').and_then(|l| l.strip_suffix("\",")) {
-            if !name.contains(' ') {
-                named.insert(name.to_owned());
-            }
+        } else if let Some(name) = line.strip_prefix('"').and_then(|l| l.strip_suffix("\","))
+            && !name.contains(' ')
+        {
+            named.insert(name.to_owned());
         }
     }
     let template = template();
