@@ -337,7 +337,7 @@ def charges(x, y):
 
 # Points that some formulas are judged at: far away the lattice of the noise is finer than binary32; next to the planes
 # that the sponge is mirrored by, binary32 cannot tell which of two coordinates is the greater after a fold.
-JUDGED = {name: lambda c: abs(c) <= 100 for name in ("landscape", "cells", "pebble")}
+JUDGED = {name: lambda c: abs(c) <= 100 for name in ("landscape", "cells", "pebble", "cloud")}
 JUDGED["sponge"] = lambda c: 1e-3 <= abs(c) <= 100
 
 PLANE = {
@@ -512,6 +512,16 @@ def pebble(x, y, z):
     return hypot3(x, y, z) - 1 + mp.mpf("0.3") * noise.noise([3 * x, 3 * y, 3 * z])
 
 
+def cloud(x, y, z):
+    import noise
+
+    u, v = turned(x, y, "2.5")
+    octaves = noise.fbm([mp.mpf("1.2") * (c + 3) for c in (u, v, z)])
+    t = clamp((hypot3(x / 2, y / 2, z / mp.mpf("1.25")) - mp.mpf("0.1")) / mp.mpf("0.9"), 0, 1)
+    density = mp.mpf("0.65") - mp.mpf("1.5") * t * t * (3 - 2 * t) + mp.mpf("1.6") * octaves
+    return greatest(0 * density, density)
+
+
 def multipole(x, y, z):
     a, b = mp.mpf("1.25"), mp.mpf("0.5")
     return 1 / hypot3(x - a, y, z) + 1 / hypot3(x + b, y - 1, z) - 2 / hypot3(x + b, y + 1, z)
@@ -537,6 +547,7 @@ SPACE = {
     "kifs": (kifs, 2, [(0.625, 0.5, 0.375), (1, 0.2, 0.3), (0, 0, 0)]),
     "sponge": (sponge, 1.25, [(1, 0.4, 0.3), (0.34, 0.9, 1), (0.5, 0.5, 0.2)]),
     "mandelbulb": (mandelbulb, 1.25, [(0.9, 0.3, 0.2), (0, 1.1, 0.1), (0.5, 0.5, 0.5)]),
+    "cloud": (cloud, 2, [(0.5, 0.25, 0.125), (0, 0, 0), (-0.75, 0.5, -0.25), (0.25, -0.75, 0.5)]),
     "pebble": (pebble, 1.5, [(1, 0, 0), (0, 0.6666667, 0.3333333), (0.3, 0.2, -0.9)]),
     "schwarz-p": (lambda x, y, z: cos(PI * x) + cos(PI * y) + cos(PI * z), 2, [(0, 0, 0), (0.5, 0.5, 0.5), (1, 0, 0.5), (1, 1, 0)]),
     "gyroid": (lambda x, y, z: sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x), 6, [(0, 0, 0), (3.1415927, 0, 0), (1.5707964, 1.5707964, 0)]),

@@ -241,7 +241,15 @@ fn plane_and_complex_scenes_evaluate_once() {
 /// Drivers copy a formula to each place that calls it: more places take a large formula longer to compile.
 #[test]
 fn scenes_of_space_hold_one_copy_of_the_formula_for_each_stub() {
-    for name in ["slices", "nested", "cutaway", "volume", "volumecut", "glow"] {
+    for name in [
+        "slices",
+        "nested",
+        "cutaway",
+        "volume",
+        "volumecut",
+        "scatter",
+        "glow",
+    ] {
         let scene = scene(name).expect("a scene");
         let module = parse(scene.name, scene.template);
         for stub in FIELD_STUBS {

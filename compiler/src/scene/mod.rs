@@ -10,6 +10,7 @@ mod implicit;
 mod levels;
 mod logcontours;
 mod nested;
+mod scatter;
 mod setting;
 mod slices;
 mod space;
@@ -56,7 +57,7 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 15] = [
+    static SCENES: [Scene; 16] = [
         levels::SCENE,
         logcontours::SCENE,
         bands::SCENE,
@@ -71,6 +72,7 @@ pub fn scenes() -> &'static [Scene] {
         cutaway::SCENE,
         volume::SCENE,
         volumecut::SCENE,
+        scatter::SCENE,
         glow::SCENE,
     ];
     &SCENES

@@ -48,7 +48,7 @@ macro_rules! gallery {
     };
 }
 
-const GALLERY: [(&str, &str, &str); 59] = gallery![
+const GALLERY: [(&str, &str, &str); 60] = gallery![
     "charges",
     "confocal",
     "doyle-mcmullen",
@@ -65,6 +65,7 @@ const GALLERY: [(&str, &str, &str); 59] = gallery![
     "chladni",
     "chmutov",
     "clebsch",
+    "cloud",
     "ding-dong",
     "dipole",
     "dome",

@@ -37,6 +37,27 @@ pub fn device() -> Option<Gpu> {
 
 /// Draws the first picture of a program.
 pub fn draw(gpu: &Gpu, source: &str, size: [u32; 2], samples: u32, time: f64) -> Picture {
+    let rows = rendered(gpu, source, size, samples, time, Pipeline::Compute);
+    Picture { size, rows }
+}
+
+/// Linear light of each pixel of the first picture of a program, row by row, as the shader computes it.
+pub fn draw_linear(gpu: &Gpu, source: &str, size: [u32; 2], samples: u32) -> Vec<Rgb> {
+    let rows = rendered(gpu, source, size, samples, 0.0, Pipeline::Linear);
+    let number = |at: &[u8]| f64::from(f32::from_le_bytes([at[0], at[1], at[2], at[3]]));
+    rows.chunks_exact(16)
+        .map(|pixel| [0, 4, 8].map(|at| number(&pixel[at..at + 4])))
+        .collect()
+}
+
+fn rendered(
+    gpu: &Gpu,
+    source: &str,
+    size: [u32; 2],
+    samples: u32,
+    time: f64,
+    pipeline: Pipeline,
+) -> Vec<u8> {
     let compiled = pullback_compiler::compile(source);
     let program = compiled
         .program
@@ -62,11 +83,11 @@ pub fn draw(gpu: &Gpu, source: &str, size: [u32; 2], samples: u32, time: f64) ->
         size: pixels,
         samples,
         time,
-        pipeline: Pipeline::Compute,
+        pipeline,
     };
     let mut rows = Vec::new();
     Renderer::new(gpu, &scene)
         .and_then(|mut r| r.render(&frame, &mut rows))
         .expect("a picture");
-    Picture { size, rows }
+    rows
 }

@@ -9,5 +9,6 @@ mod extremes;
 mod glow;
 mod lines;
 mod nested;
+mod scatter;
 mod slices;
 mod volume;

@@ -1,0 +1,267 @@
+// scatter: f as the density of a cloud in a box, lit by a distant light and from all around. Light is scattered once on
+// its way to the eye and weakened before and after, as it is in the integral along each ray.
+//
+// Settings (see the record for ranges):
+// | box, center            | world    | half size and centre of the box |
+// | absorption, scattering |          | optical depths of half the shortest side of the box where f = 1, linear rgb |
+// | g                      |          | asymmetry of the phase function: 1 forwards, 0 all ways alike, -1 backwards |
+// | light                  | linear   | irradiance of the light |
+// | ambient                | linear   | radiance from all around |
+// | exposure, tone, gamma  |          | of the radiance; 0 Reinhard, 1 none; exponent 1/gamma after that |
+// | jitter                 |          | how far stretches begin at another place in each sample |
+// | steps, light_steps     |          | stretches along the diagonal of the box, of rays and of the ways of the light |
+// | yaw, pitch, fov        | degrees  | of the camera |
+// | distance               | world    | of the camera, 0: the box fills the view |
+// | light_yaw, light_pitch | degrees  | of the light, from the camera's yaw |
+// | background, backdrop   | linear   | behind the box; 0 sky, 1 one colour |
+// | edge_width             | pixels   | of the box's edges |
+//
+// Where f is negative or undefined the box is empty; larger values than the densest, infinite ones too, are as that.
+
+struct View {
+    center: vec2f,     // world coordinates of the centre of the whole image
+    size: vec2f,       // whole image, pixels
+    tile: vec2f,       // pixel of the whole image at this tile's top-left corner
+    pixel: f32,        // world units per pixel
+    time: f32,         // seconds
+    samples: u32,      // supersamples per axis, >= 1
+    zero: u32,         // always 0, but the shader compiler does not know
+    tile_size: vec2u,  // this tile, pixels
+}
+
+struct Settings {
+    box: vec3f,
+    center: vec3f,
+    absorption: vec3f,
+    scattering: vec3f,
+    g: f32,
+    light: vec3f,
+    ambient: vec3f,
+    exposure: f32,
+    tone: u32,
+    gamma: f32,
+    jitter: f32,
+    steps: u32,
+    light_steps: u32,
+    yaw: f32,
+    pitch: f32,
+    distance: f32,
+    fov: f32,
+    light_yaw: f32,
+    light_pitch: f32,
+    background: vec3f,
+    backdrop: u32,
+    edge_width: f32,
+}
+
+struct Ray {
+    origin: vec3f,
+    direction: vec3f,  // of length 1
+}
+
+struct Sight {
+    ray: Ray,
+    forward: vec3f,
+    slope: f32,
+}
+
+// A way through the box, cut into stretches.
+struct Way {
+    ray: Ray,
+    extent: f32,
+    count: u32,
+    phase: f32,  // in 0..1, of the first border
+}
+
+// What does not change along a ray: coefficients per world unit where f = 1, and radiance that is scattered into the
+// ray, per scattered part of the medium.
+struct Cloud {
+    scattering: vec3f,
+    extinction: vec3f,
+    direct: vec3f,    // of the light, not weakened yet
+    ambient: vec3f,
+}
+
+struct Scattered {
+    light: vec3f,
+    through: vec3f,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
+@group(0) @binding(2) var<uniform> settings: Settings;
+
+fn field(p: vec3f) -> f32 { return 0.0; }
+
+fn is_nan(x: f32) -> bool { return false; }
+fn direction_from_angles(yaw: f32, pitch: f32) -> vec3f { return vec3f(); }
+fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn sky_at(direction: vec3f, background: vec3f) -> vec3f { return vec3f(); }
+fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
+fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
+fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 { return 0.0; }
+fn absorbed_part(x: f32) -> f32 { return 0.0; }
+fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
+fn sample_phase(pixel: vec2f) -> f32 { return 0.0; }
+fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f { return vec3f(); }
+
+const DEGREE: f32 = 0.017453292519943295;
+const EDGE: vec3f = vec3f(0.42, 0.45, 0.50);
+// Of displayed radiance and of what is behind, at most this much is left out where a ray ends early.
+const LEAST: f32 = 0.0005;
+// Denser values count as if half the shortest side of the box had this optical depth: light that goes in as far as points
+// are rounded still comes through.
+const DENSEST: f32 = 1e4;
+// Of optical depths: what comes through is 0 in f32.
+const DEEPEST: f32 = 110.0;
+// 1/(4 π)
+const PER_SPHERE: f32 = 0.07957747154594767;
+// 1 over the golden ratio: phases of the ways of the light from one end of a stretch to the next.
+const GOLDEN: f32 = 0.6180339887498949;
+
+// The phase function of Henyey and Greenstein ("Diffuse radiation in the galaxy", Astrophysical Journal 93, 1941), per
+// steradian, of integral 1 over the sphere: (1 - g²)/(4 π (1 + g² - 2 g cos θ)^(3/2)) with the angle θ between the ways
+// of the light before and after. Both unit vectors are against those ways. For no |g| < 1 does the denominator cancel:
+// it is (1 - |g|)² + |g| |a ∓ b|².
+fn phase_function(g: f32, a: vec3f, b: vec3f) -> f32 {
+    let size = abs(g);
+    let apart = a - select(b, -b, g < 0.0);
+    let rest = 1.0 - size;
+    let square = rest * rest + size * dot(apart, apart);
+    return PER_SPHERE * rest * (1.0 + size) / (square * sqrt(square));
+}
+
+fn greatest(v: vec3f) -> f32 {
+    return max(v.x, max(v.y, v.z));
+}
+
+fn density_of(value: f32) -> f32 {
+    let densest = DENSEST / max(greatest(settings.absorption + settings.scattering), 1e-20);
+    return select(clamp(value, 0.0, densest), 0.0, is_nan(value));
+}
+
+// The integral of the density along a way, by the midpoint rule.
+fn column_of(way: Way) -> f32 {
+    var column = 0.0;
+    for (var k = view.zero; k <= way.count; k++) {
+        let stretch = stretch_at(k, way.count, way.phase, way.extent);
+        if stretch.y > stretch.x {
+            let middle = way.ray.origin + 0.5 * (stretch.x + stretch.y) * way.ray.direction;
+            column += (stretch.y - stretch.x) * density_of(field(middle));
+        }
+    }
+    return column;
+}
+
+// A way of this extent, in as many stretches as the diagonal's number says.
+fn way_of(ray: Ray, extent: f32, steps: u32, phase: f32) -> Way {
+    let diagonal = 2.0 * length(settings.box);
+    let count = max(u32(ceil(min(extent / diagonal, 1.0) * f32(steps))), 1u);
+    return Way(ray, extent, count, mix(0.5, phase, settings.jitter));
+}
+
+// Towards the light. A component of less than the rounding of angles is 0, so that light along a face stays in it.
+fn light_direction() -> vec3f {
+    let light = direction_from_angles((settings.yaw + settings.light_yaw) * DEGREE, settings.light_pitch * DEGREE);
+    return select(light, vec3f(0.0), abs(light) < vec3f(1e-5));
+}
+
+// From a point of the box towards the light, to where the box ends. On an axis along which the light does not go it is in
+// the middle for that: points of a face may be rounded to outside.
+fn way_to_light(p: vec3f, light: vec3f, phase: f32) -> Way {
+    let level = select(p, settings.center, light == vec3f(0.0));
+    let span = box_span(level, light, settings.center, settings.box);
+    return way_of(Ray(p, light), max(span.y, 0.0), settings.light_steps, phase);
+}
+
+fn absorbed(depth: vec3f) -> vec3f {
+    return vec3f(absorbed_part(depth.x), absorbed_part(depth.y), absorbed_part(depth.z));
+}
+
+// The mean of exp(-x) for x evenly between a and b, both >= 0.
+fn mean_transmittance(a: vec3f, b: vec3f) -> vec3f {
+    let x = max(abs(b - a), vec3f(1e-20));
+    return exp(-min(min(a, b), vec3f(DEEPEST))) * absorbed(x) / x;
+}
+
+// What a stretch adds behind what has been seen, with the columns x of itself, y and z from its ends to the light. It is
+// uniform, and the light's optical depth changes evenly along it: in a uniform medium that is exact for any length.
+fn seen_behind(seen: Scattered, columns: vec3f, cloud: Cloud) -> Scattered {
+    let depth = cloud.extinction * columns.x;
+    let direct = cloud.direct * mean_transmittance(cloud.extinction * columns.y, cloud.extinction * columns.z + depth);
+    let scattered = cloud.scattering * columns.x * (direct + cloud.ambient * mean_transmittance(vec3f(), depth));
+    return Scattered(seen.light + seen.through * scattered, seen.through * exp(-min(depth, vec3f(DEEPEST))));
+}
+
+fn cloud_on(ray: Ray, light: vec3f) -> Cloud {
+    let unit = min(settings.box.x, min(settings.box.y, settings.box.z));
+    let scattering = settings.scattering / unit;
+    let direct = settings.light * phase_function(settings.g, ray.direction, light);
+    return Cloud(scattering, settings.absorption / unit + scattering, direct, settings.ambient);
+}
+
+// What has to come through for more of a ray to be looked at. Of what is behind, light cannot scatter more than
+// the albedo of what comes through.
+fn least_through(cloud: Cloud) -> f32 {
+    let albedo = cloud.scattering / max(cloud.extinction, vec3f(1e-37));
+    return LEAST / max(settings.exposure * greatest(albedo * (cloud.direct + cloud.ambient)), 1.0);
+}
+
+// Light that is scattered towards the eye on a ray in the box, and what comes through.
+fn scattered_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Scattered {
+    let light = light_direction();
+    let cloud = cloud_on(ray, light);
+    let least = least_through(cloud);
+    let start = max(span.x, 0.0);
+    let phase = sample_phase(pixel);
+    let way = way_of(ray, span.y - start, settings.steps, phase);
+    var seen = Scattered(vec3f(), vec3f(1.0));
+    // of the light from the end of the stretch before; negative: not known
+    var last = -1.0;
+    for (var k = view.zero; k <= way.count && greatest(seen.through) > least; k++) {
+        let stretch = stretch_at(k, way.count, way.phase, way.extent);
+        let entry = ray.origin + (start + stretch.x) * ray.direction;
+        var columns = vec3f(0.0, last, 0.0);
+        // one place that evaluates the field: the stretch, and from its ends to the light
+        for (var j = view.zero; j < 3u; j++) {
+            if j == 1u && last >= 0.0 {
+                continue;
+            }
+            if j > 0u && columns.x <= 0.0 {
+                break;
+            }
+            var part = Way(Ray(entry, ray.direction), stretch.y - stretch.x, 1u, 1.0);
+            if j > 0u {
+                let p = ray.origin + (start + select(stretch.x, stretch.y, j == 2u)) * ray.direction;
+                part = way_to_light(p, light, fract(phase + GOLDEN * f32(k + j)));
+            }
+            columns[j] = column_of(part);
+        }
+        last = select(-1.0, columns.z, columns.x > 0.0);
+        seen = seen_behind(seen, max(columns, vec3f(0.0)), cloud);
+    }
+    return seen;
+}
+
+// The edges at the face of the box at distance t, on a colour.
+fn edged(colour: vec3f, sight: Sight, t: f32, strength: f32) -> vec3f {
+    let n = box_normal(sight.ray.origin + t * sight.ray.direction, settings.center, settings.box);
+    return mix(colour, EDGE, strength * box_edges(sight, t, n, settings.center, settings.box, settings.edge_width));
+}
+
+fn shade(pixel: vec2f) -> vec4f {
+    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let sky = sky_at(sight.ray.direction, settings.background);
+    let background = select(settings.background, sky, settings.backdrop == 0u);
+    let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
+    if span.y <= max(span.x, 0.0) {
+        return vec4f(background, 1.0);
+    }
+    let seen = scattered_in_box(sight.ray, span, pixel);
+    let behind = edged(background, sight, span.y, 0.4);
+    var colour = displayed(seen.light, settings.exposure, settings.tone, settings.gamma) + seen.through * behind;
+    if span.x > 0.0 {
+        colour = edged(colour, sight, span.x, 0.55);
+    }
+    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+}
