@@ -253,6 +253,9 @@ impl Pass {
         if !self.alone {
             return None;
         }
+        if is_real(g, u) && !is_real(g, v) {
+            return None;
+        }
         if !is_real(g, u) {
             let product = self.squares_of_parts(g, a, u, v)?;
             return self.by(Rule::Squares, product);
