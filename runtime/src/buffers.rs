@@ -1,6 +1,7 @@
 //! Buffers on the device, and how their bytes come back.
 
 use std::sync::mpsc;
+use std::time::Duration;
 
 use crate::{Error, Gpu};
 
@@ -97,6 +98,9 @@ fn fixed(
     })
 }
 
+/// Longest time from the end of the device's work to the news of it.
+const TELLING: Duration = Duration::from_secs(10);
+
 /// Submits `encoder`, waits, and shows `bytes` bytes of `readable` to `look`.
 pub(crate) fn submit_and_read<T>(
     gpu: &Gpu,
@@ -118,7 +122,8 @@ pub(crate) fn submit_and_read<T>(
     })?;
     gpu.wait(during, submission)?;
     let failed = |reason: String| Error::Device { during, reason };
-    match receiver.try_recv() {
+    // Another thread that waits on the same device may be the one that is about to tell it.
+    match receiver.recv_timeout(TELLING) {
         Ok(Ok(())) => {}
         Ok(Err(error)) => return Err(failed(error.to_string())),
         Err(_) => return Err(failed("the results never came back".into())),

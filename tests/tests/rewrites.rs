@@ -251,7 +251,7 @@ fn the_document_lists_the_rules() {
 }
 
 /// What no rule may touch: an identity that fails on a branch or overflows, or a form that is no better.
-const UNTOUCHED: [&str; 20] = [
+const UNTOUCHED: [&str; 21] = [
     "f(x, y) = x^2 - 2 x y + y^2",
     "f(x, y, z) = x y - x z",
     "f(x, y) = x + 1 - 0.3",
