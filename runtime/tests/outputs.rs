@@ -154,6 +154,10 @@ fn what_a_file_cannot_hold_is_said() {
     );
     check(&["--frames", "2", "--sweep", "height=1"], "NAME=FROM..TO");
     check(&["--sweep", "height=1..2"], "--frames");
+    check(
+        &["--frames", "3", "--sweep", "major=1..2"],
+        "whole number, not 1.5",
+    );
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 

@@ -113,7 +113,7 @@ impl Animation {
     ) -> Result<(), Failure> {
         let (path, format, metadata) = output;
         // every number is looked at before the first picture is drawn
-        for frame in [0, frames - 1] {
+        for frame in 0..frames {
             self.moment(reel, frame, frames)?;
         }
         let mut refused = None;
