@@ -447,7 +447,20 @@ fn holds(ty: &TypeInner, kind: SettingKind) -> bool {
 /// What is wrong with the settings of a scene, if anything.
 fn settings_of(scene: &Scene) -> Result<(), String> {
     let module = parse(scene.name, scene.template);
-    let members = members(&module, "Settings").unwrap_or_default();
+    let mut members = members(&module, "Settings").unwrap_or_default();
+    // a structure within holds settings, too
+    while let Some(k) = members
+        .iter()
+        .position(|m| matches!(m.1, TypeInner::Struct { .. }))
+    {
+        let (_, ty, _) = members.remove(k);
+        if let TypeInner::Struct { members: inner, .. } = ty {
+            members.extend(inner.iter().map(|m| {
+                let ty = module.types[m.ty].inner.clone();
+                (m.name.clone().unwrap_or_default(), ty, m.offset)
+            }));
+        }
+    }
     for (name, ty, _) in &members {
         let Some(setting) = scene.setting(name) else {
             return Err(format!("the member `{name}` has no setting"));

@@ -13,8 +13,7 @@
 // | fade                   |         | part of the box within which the light fades towards the walls |
 // | jitter                 |         | how far samples begin at another place in each pixel |
 // | vignette, grain        |         | darkening of the corners; noise that is added |
-// | yaw, pitch, fov        | degrees | of the camera |
-// | distance               | world   | of the camera, 0: the box fills the view |
+// | camera                 |         | where it is and how it sees |
 // | background             | linear  | behind the light |
 //
 // Undefined and infinite values emit nothing, and a constant nothing or, where it is a distance, an even haze. By its
@@ -29,6 +28,19 @@ struct View {
     samples: u32,      // supersamples per axis, >= 1
     zero: u32,         // always 0, but the shader compiler does not know
     tile_size: vec2u,  // this tile, pixels
+}
+
+struct Camera {
+    eye: vec3f,
+    yaw: f32,
+    aim: vec3f,
+    pitch: f32,
+    up: vec3f,
+    distance: f32,
+    fov: f32,
+    extent: f32,
+    camera: u32,
+    projection: u32,
 }
 
 struct Settings {
@@ -47,10 +59,7 @@ struct Settings {
     jitter: f32,
     vignette: f32,
     grain: f32,
-    yaw: f32,
-    pitch: f32,
-    distance: f32,
-    fov: f32,
+    camera: Camera,
     background: vec3f,
 }
 
@@ -63,6 +72,7 @@ struct Sight {
     ray: Ray,
     forward: vec3f,
     slope: f32,
+    parallel: bool,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -74,7 +84,7 @@ fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
 
 fn is_finite(x: f32) -> bool { return false; }
 fn length3_safe(v: vec3f) -> f32 { return 0.0; }
-fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn mean_glow(a: f32, b: f32, epsilon: f32, square: bool) -> f32 { return 0.0; }
 fn filmic(radiance: vec3f) -> vec3f { return vec3f(); }
@@ -152,7 +162,7 @@ fn glow_along(ray: Ray, span: vec2f, pixel: vec2f) -> vec3f {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     var light = vec3f();
     if span.y > max(span.x, 0.0) {

@@ -13,9 +13,9 @@
 // | isoline_width            | pixels  | of the lines on the walls |
 // | wall_opacity, edge_width |         | of the walls; pixels, of the box's edges |
 // | lighting                 |         | 0: flat colours |
-// | yaw, pitch, fov          | degrees | of the camera |
-// | distance                 | world   | of the camera, 0: the box fills the view |
-// | light_yaw, light_pitch   | degrees | of the light, from the camera's yaw |
+// | camera                   |         | where it is and how it sees |
+// | light_yaw, light_pitch   | degrees | of the light; yaw from the camera or from +x |
+// | light_strength, ambient  |         | of the sun, and of sky and ground |
 // | backdrop, background     |         | 0 ground and sky, 1 plain; colour of the horizon |
 //
 // Where f is undefined there is no surface, and the walls are hatched. A constant has no surface. A sign change where f
@@ -32,6 +32,19 @@ struct View {
     tile_size: vec2u,  // this tile, pixels
 }
 
+struct Camera {
+    eye: vec3f,
+    yaw: f32,
+    aim: vec3f,
+    pitch: f32,
+    up: vec3f,
+    distance: f32,
+    fov: f32,
+    extent: f32,
+    camera: u32,
+    projection: u32,
+}
+
 struct Settings {
     box: vec3f,
     center: vec3f,
@@ -46,12 +59,12 @@ struct Settings {
     isoline_width: f32,
     wall_opacity: f32,
     lighting: f32,
-    yaw: f32,
-    pitch: f32,
-    distance: f32,
-    fov: f32,
+    camera: Camera,
     light_yaw: f32,
     light_pitch: f32,
+    light_from: u32,
+    light_strength: f32,
+    ambient: f32,
     backdrop: u32,
     background: vec3f,
     edge_width: f32,
@@ -66,6 +79,7 @@ struct Sight {
     ray: Ray,
     forward: vec3f,
     slope: f32,
+    parallel: bool,
 }
 
 struct Family {
@@ -107,14 +121,20 @@ struct March {
     level: i32,
 }
 
+struct Lamp {
+    toward: vec3f,
+    strength: f32,
+    surroundings: vec3f,
+    ambient: f32,
+}
+
 struct Shells {
     family: Family,
     opaque_level: i32,
     opaque_opacity: f32,
     ghost_opacity: f32,
     lighting: f32,
-    light: vec3f,
-    surroundings: vec3f,
+    lamp: Lamp,
 }
 
 struct Layer {
@@ -136,8 +156,8 @@ fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f { return vec2f(); }
 // (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
 fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
 
-fn direction_from_angles(yaw: f32, pitch: f32) -> vec3f { return vec3f(); }
-fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
+fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 { return 0.0; }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
@@ -155,7 +175,6 @@ fn edge_layer(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, w
 fn seen_nothing() -> Seen { return Seen(); }
 fn seen_behind(seen: Seen, layer: Layer) -> Seen { return Seen(); }
 
-const DEGREE: f32 = 0.017453292519943295;
 // Layers of a ray that are composited at most, and what has to come through for more of them to be looked for.
 const LAYERS: u32 = 96u;
 const THINNEST: f32 = 0.002;
@@ -169,9 +188,13 @@ fn shells() -> Shells {
         settings.highlight_opacity,
         settings.ghost_opacity,
         settings.lighting,
-        direction_from_angles((settings.yaw + settings.light_yaw) * DEGREE, settings.light_pitch * DEGREE),
-        settings.background,
+        lamp(),
     );
+}
+
+fn lamp() -> Lamp {
+    let toward = light_toward(settings.camera, settings.light_yaw, settings.light_pitch, settings.light_from);
+    return Lamp(toward, settings.light_strength, settings.background, settings.ambient);
 }
 
 fn backdrop_colour(ray: Ray) -> vec3f {
@@ -229,7 +252,7 @@ fn seen_in_box(sight: Sight, span: vec2f, pixel: vec2f) -> Seen {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     var seen = seen_nothing();
     if span.y > max(span.x, 0.0) {

@@ -10,9 +10,8 @@
 // | exposure, tone, gamma  |          | of the radiance; 0 Reinhard, 1 none; exponent 1/gamma after that |
 // | jitter                 |          | how far stretches begin at another place in each sample |
 // | steps, light_steps     |          | stretches along the diagonal of the box, of rays and of the ways of the light |
-// | yaw, pitch, fov        | degrees  | of the camera |
-// | distance               | world    | of the camera, 0: the box fills the view |
-// | light_yaw, light_pitch | degrees  | of the light, from the camera's yaw |
+// | camera                 |          | where it is and how it sees |
+// | light_yaw, light_pitch | degrees  | of the light; yaw from the camera or from +x |
 // | background, backdrop   | linear   | behind the box; 0 sky, 1 one colour |
 // | edge_width             | pixels   | of the box's edges |
 //
@@ -29,6 +28,19 @@ struct View {
     tile_size: vec2u,  // this tile, pixels
 }
 
+struct Camera {
+    eye: vec3f,
+    yaw: f32,
+    aim: vec3f,
+    pitch: f32,
+    up: vec3f,
+    distance: f32,
+    fov: f32,
+    extent: f32,
+    camera: u32,
+    projection: u32,
+}
+
 struct Settings {
     box: vec3f,
     center: vec3f,
@@ -43,12 +55,10 @@ struct Settings {
     jitter: f32,
     steps: u32,
     light_steps: u32,
-    yaw: f32,
-    pitch: f32,
-    distance: f32,
-    fov: f32,
+    camera: Camera,
     light_yaw: f32,
     light_pitch: f32,
+    light_from: u32,
     background: vec3f,
     backdrop: u32,
     edge_width: f32,
@@ -63,6 +73,7 @@ struct Sight {
     ray: Ray,
     forward: vec3f,
     slope: f32,
+    parallel: bool,
 }
 
 // A way through the box, cut into stretches.
@@ -94,8 +105,8 @@ struct Scattered {
 fn field(p: vec3f) -> f32 { return 0.0; }
 
 fn is_nan(x: f32) -> bool { return false; }
-fn direction_from_angles(yaw: f32, pitch: f32) -> vec3f { return vec3f(); }
-fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
+fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn sky_at(direction: vec3f, background: vec3f) -> vec3f { return vec3f(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
@@ -105,7 +116,6 @@ fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec
 fn sample_phase(pixel: vec2f) -> f32 { return 0.0; }
 fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f { return vec3f(); }
 
-const DEGREE: f32 = 0.017453292519943295;
 const EDGE: vec3f = vec3f(0.42, 0.45, 0.50);
 // Of displayed radiance and of what is behind, at most this much is left out where a ray ends early.
 const LEAST: f32 = 0.0005;
@@ -162,7 +172,7 @@ fn way_of(ray: Ray, extent: f32, steps: u32, phase: f32) -> Way {
 
 // Towards the light. A component of less than the rounding of angles is 0, so that light along a face stays in it.
 fn light_direction() -> vec3f {
-    let light = direction_from_angles((settings.yaw + settings.light_yaw) * DEGREE, settings.light_pitch * DEGREE);
+    let light = light_toward(settings.camera, settings.light_yaw, settings.light_pitch, settings.light_from);
     return select(light, vec3f(0.0), abs(light) < vec3f(1e-5));
 }
 
@@ -250,7 +260,7 @@ fn edged(colour: vec3f, sight: Sight, t: f32, strength: f32) -> vec3f {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
     let sky = sky_at(sight.ray.direction, settings.background);
     let background = select(settings.background, sky, settings.backdrop == 0u);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);

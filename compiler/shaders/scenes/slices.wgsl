@@ -18,8 +18,7 @@
 // | grid_opacity          |         | of the grid |
 // | axis_width            | pixels  | of the lines where a coordinate is 0 |
 // | edge_width            | pixels  | of the box's edges |
-// | yaw, pitch, fov       | degrees | of the camera |
-// | distance              | world   | of the camera, 0: the box fills the view |
+// | camera                |         | where it is and how it sees |
 // | background            | linear  | colour of the horizon |
 //
 // Undefined values (NaN) are a grey hatch, infinite ones the end colours with a hatch of the other slope. A constant
@@ -34,6 +33,19 @@ struct View {
     samples: u32,      // supersamples per axis, >= 1
     zero: u32,         // always 0, but the shader compiler does not know
     tile_size: vec2u,  // this tile, pixels
+}
+
+struct Camera {
+    eye: vec3f,
+    yaw: f32,
+    aim: vec3f,
+    pitch: f32,
+    up: vec3f,
+    distance: f32,
+    fov: f32,
+    extent: f32,
+    camera: u32,
+    projection: u32,
 }
 
 struct Settings {
@@ -57,10 +69,7 @@ struct Settings {
     grid_opacity: f32,
     axis_width: f32,
     edge_width: f32,
-    yaw: f32,
-    pitch: f32,
-    distance: f32,
-    fov: f32,
+    camera: Camera,
     background: vec3f,
 }
 
@@ -73,6 +82,7 @@ struct Sight {
     ray: Ray,
     forward: vec3f,
     slope: f32,
+    parallel: bool,
 }
 
 struct Contours {
@@ -91,7 +101,7 @@ struct Contours {
 fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
 
 fn direction_or(v: vec3f, fallback: vec3f) -> vec3f { return vec3f(); }
-fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 { return 0.0; }
 fn plane_distance(ray: Ray, n: vec3f, offset: f32) -> f32 { return 0.0; }
 fn plane_offset(n: vec3f, center: vec3f, half_size: vec3f, position: f32) -> f32 { return 0.0; }
@@ -190,7 +200,7 @@ fn edged(colour: vec3f, t: f32, strength: f32, sight: Sight) -> vec3f {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     var colour = stage_colour(sight.ray, settings.center, settings.box, settings.background);
     if span.y <= max(span.x, 0.0) {

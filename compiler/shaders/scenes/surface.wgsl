@@ -1,5 +1,4 @@
-// surface: the level set f(x, y, z) = level inside a box that stands on the ground, lit, seen by an orbiting camera.
-// z is up.
+// surface: the level set f(x, y, z) = level inside a box that stands on the ground, lit. z is up.
 //
 // Settings:
 // | name            | type  | default           | range     | unit    | meaning |
@@ -7,12 +6,12 @@
 // | center          | vec3f | 0 0 0             |           | world   | centre of the box |
 // | level           | f32   | 0                 |           | value   | of f on the surface |
 // | steps           | u32   | 160               | 8..4096   |         | samples along the diagonal of the box |
-// | yaw             | f32   | 32                |           | degrees | of the camera around z, from +x towards +y |
-// | pitch           | f32   | 24                | -89..89   | degrees | of the camera above the ground |
-// | distance        | f32   | 0                 | 0..       | world   | from the camera to the centre; 0: the box fills the view |
-// | fov             | f32   | 28                | 1..120    | degrees | field of view across the shorter side of the image |
-// | light_yaw       | f32   | -50               |           | degrees | of the light around z, from the camera's yaw |
+// | camera          |       |                   |           |         | where it is and how it sees |
+// | light_yaw       | f32   | -50               |           | degrees | of the light around z |
 // | light_pitch     | f32   | 52                | -90..90   | degrees | of the light above the ground |
+// | light_from      | u32   | 0                 | 0..1      |         | where light_yaw begins: 0 the camera's yaw, 1 +x |
+// | light_strength  | f32   | 1                 | 0..100    |         | of the sun |
+// | ambient         | f32   | 1                 | 0..100    |         | strength of the light of sky and ground |
 // | outside         | vec3f | 0.66 0.23 0.085   | 0..1      | linear  | colour of the side where f > level |
 // | inside          | vec3f | 0.06 0.22 0.45    | 0..1      | linear  | colour of the side where f < level |
 // | background      | vec3f | 0.80 0.82 0.85    | 0..1      | linear  | colour of the horizon |
@@ -37,17 +36,30 @@ struct View {
     tile_size: vec2u,  // this tile, pixels
 }
 
+struct Camera {
+    eye: vec3f,
+    yaw: f32,
+    aim: vec3f,
+    pitch: f32,
+    up: vec3f,
+    distance: f32,
+    fov: f32,
+    extent: f32,
+    camera: u32,
+    projection: u32,
+}
+
 struct Settings {
     box: vec3f,
     center: vec3f,
     level: f32,
     steps: u32,
-    yaw: f32,
-    pitch: f32,
-    distance: f32,
-    fov: f32,
+    camera: Camera,
     light_yaw: f32,
     light_pitch: f32,
+    light_from: u32,
+    light_strength: f32,
+    ambient: f32,
     outside: vec3f,
     inside: vec3f,
     background: vec3f,
@@ -73,23 +85,47 @@ struct Ray {
     direction: vec3f,  // of length 1
 }
 
+struct Sight {
+    ray: Ray,
+    forward: vec3f,
+    slope: f32,
+    parallel: bool,
+}
+
+struct Lamp {
+    toward: vec3f,
+    strength: f32,
+    surroundings: vec3f,
+    ambient: f32,
+}
+
+struct Layer {
+    colour: vec3f,
+    opacity: f32,
+}
+
 fn is_nan(x: f32) -> bool { return false; }
 fn is_finite(x: f32) -> bool { return false; }
 fn length3_safe(v: vec3f) -> f32 { return 0.0; }
 fn direction_or(v: vec3f, fallback: vec3f) -> vec3f { return vec3f(); }
+fn sample_window() -> f32 { return 0.0; }
 fn line_coverage(offset: f32, width: f32, window: f32) -> f32 { return 0.0; }
 fn line_train(u: f32, duty: f32, window: f32) -> f32 { return 0.0; }
 fn hatch(pixel: vec2f, slope: f32, period: f32, duty: f32, window: f32) -> f32 { return 0.0; }
-fn direction_from_angles(yaw: f32, pitch: f32) -> vec3f { return vec3f(); }
-fn slope_per_pixel(size: vec2f, fov: f32) -> f32 { return 0.0; }
-fn orbit_ray(pixel: vec2f, size: vec2f, aim: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Ray { return Ray(); }
+fn pixels_away(offset: f32, rate: f32) -> f32 { return 0.0; }
+fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
+fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 { return 0.0; }
+fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
+fn lit_colour(colour: vec3f, n: vec3f, v: vec3f, open: f32, lamp: Lamp) -> vec3f { return vec3f(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
-fn wrap_diffuse(n: vec3f, l: vec3f, wrap: f32) -> f32 { return 0.0; }
-fn blinn_specular(n: vec3f, l: vec3f, v: vec3f, exponent: f32) -> f32 { return 0.0; }
-fn schlick_fresnel(cosine: f32, f0: f32) -> f32 { return 0.0; }
+fn layer_over(front: Layer, back: Layer) -> Layer { return Layer(); }
+fn edge_layer(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32, behind: bool) -> Layer { return Layer(); }
+fn sky_at(direction: vec3f, background: vec3f) -> vec3f { return vec3f(); }
+fn ground_hit(ray: Ray, center: vec3f, half_size: vec3f) -> f32 { return 0.0; }
+fn ground_distance(p: vec3f, center: vec3f, half_size: vec3f) -> f32 { return 0.0; }
+fn ground_colour(p: vec3f, direction: vec3f, light: f32, center: vec3f, half_size: vec3f, background: vec3f) -> vec3f { return vec3f(); }
 
-const DEGREE: f32 = 0.017453292519943295;
 // Values are kept within ±LARGEST, so that differences and ratios of them are finite.
 const LARGEST: f32 = 1e30;
 const INK: vec3f = vec3f(0.012, 0.014, 0.02);
@@ -406,7 +442,11 @@ fn step_count(extent: f32, steps: u32) -> u32 {
 // ---- Light ---------------------------------------------------------------------------------------------------
 
 fn light_direction() -> vec3f {
-    return direction_from_angles((settings.yaw + settings.light_yaw) * DEGREE, settings.light_pitch * DEGREE);
+    return light_toward(settings.camera, settings.light_yaw, settings.light_pitch, settings.light_from);
+}
+
+fn lamp() -> Lamp {
+    return Lamp(light_direction(), settings.light_strength, settings.background, settings.ambient);
 }
 
 // First-order distance to the surface, world units: |f - level| / |∇f|; large where that is not known.
@@ -453,16 +493,6 @@ fn hidden_sky(jet: vec4f, side: f32, k: u32) -> f32 {
     return (1.0 - free) * exp2(-f32(k));
 }
 
-// Light that reaches the eye from a surface of one colour: sky and ground light, a wrapped sun, and its highlight.
-fn lit(colour: vec3f, n: vec3f, v: vec3f, open: f32) -> vec3f {
-    let l = light_direction();
-    let sky = mix(vec3f(0.24, 0.21, 0.19), vec3f(0.36, 0.40, 0.46), 0.5 + 0.5 * n.z);
-    let sun = vec3f(1.06, 1.00, 0.91) * wrap_diffuse(n, l, 0.35) * mix(1.0, open, 0.6);
-    let gloss = blinn_specular(n, l, v, 110.0) * 0.30 * open;
-    let rim = (schlick_fresnel(abs(dot(n, v)), 0.03) - 0.03) * 0.30 * open;
-    return colour * (sky * open + sun) + vec3f(gloss) + rim * settings.background;
-}
-
 // What light needs of f and its gradient.
 struct Light {
     jet: vec4f,    // at the base
@@ -499,66 +529,25 @@ fn look_at_base(base: vec3f, direction: vec3f, hit: Hit, on_ground: bool) -> Lig
 // The surface at a hit; `closed` is the sum of `hidden_sky`.
 fn surface_colour(spot: Spot, direction: vec3f, closed: f32) -> vec3f {
     let open = 1.0 - settings.occlusion * clamp(closed, 0.0, 1.0);
-    return lit(select(settings.inside, settings.outside, spot.outer), spot.n, -direction, open);
+    return lit_colour(select(settings.inside, settings.outside, spot.outer), spot.n, -direction, open, lamp());
 }
 
 // ---- The box -------------------------------------------------------------------------------------------------
-
-// Distance on the screen of a line in a face, pixels. `offset` is the distance in the face, at right angles to the
-// line along the unit vector `along`; seen at an angle it shrinks by |d·n| / |d × along|.
-fn screen_distance(offset: f32, along: vec3f, n: vec3f, direction: vec3f, footprint: f32) -> f32 {
-    let tilt = sqrt(max(1.0 - dot(direction, along) * dot(direction, along), 1e-8));
-    return min(offset * abs(dot(direction, n)) / (tilt * footprint), 1e9);
-}
-
-// Coverage by the edges of the box at a point of one of its faces.
-fn edge_coverage(p: vec3f, n: vec3f, direction: vec3f, footprint: f32) -> f32 {
-    let gap = max(settings.box - abs(p - settings.center), vec3f(0.0));
-    return max(
-        edge_across(gap.x, vec3f(1.0, 0.0, 0.0), n, direction, footprint),
-        max(
-            edge_across(gap.y, vec3f(0.0, 1.0, 0.0), n, direction, footprint),
-            edge_across(gap.z, vec3f(0.0, 0.0, 1.0), n, direction, footprint),
-        ),
-    );
-}
-
-// Coverage by the edge at distance `gap` along the axis `u` in a face; none where `u` is the face's own normal.
-fn edge_across(gap: f32, u: vec3f, n: vec3f, direction: vec3f, footprint: f32) -> f32 {
-    if abs(dot(n, u)) > 0.5 {
-        return 0.0;
-    }
-    let away = screen_distance(gap, cross(n, u), n, direction, footprint);
-    return line_coverage(away, settings.edge_width, sample_window());
-}
-
-// What is drawn on a face: colour and opacity.
-struct Wall {
-    colour: vec3f,
-    opacity: f32,
-}
-
-// Puts ink of a colour and opacity on top.
-fn paint(under: Wall, colour: vec3f, opacity: f32) -> Wall {
-    let total = opacity + under.opacity * (1.0 - opacity);
-    return Wall(mix(under.colour, colour, opacity / max(total, 1e-6)), total);
-}
 
 // A point of a face of the box, as a ray sees it.
 struct Face {
     p: vec3f,
     n: vec3f,
-    footprint: f32,  // world units per pixel there
+    t: f32,  // distance along the ray
     drawn: bool,
 }
 
 // The far face that a ray meets (`behind`), or the near one. The far one is hidden by the surface.
 fn face_of(ray: Ray, span: vec2f, behind: bool, hidden: bool) -> Face {
-    let pixel_slope = slope_per_pixel(view.size, clamp(settings.fov, 1.0, 120.0) * DEGREE);
     let t = select(span.x, span.y, behind);
     let p = ray.origin + t * ray.direction;
     let drawn = span.y > max(span.x, 0.0) && t > 0.0 && !(behind && hidden);
-    return Face(p, box_normal(p, settings.center, settings.box), max(t * pixel_slope, 1e-30), drawn);
+    return Face(p, box_normal(p, settings.center, settings.box), t, drawn);
 }
 
 // f on a face.
@@ -570,15 +559,15 @@ struct Trace {
     line: f32,     // coverage by the line of the level, if it is one
 }
 
-fn trace_on(face: Face, value: f32, flat: vec3f, direction: vec3f) -> Trace {
+fn trace_on(face: Face, value: f32, gradient: vec3f, sight: Sight) -> Trace {
+    let flat = gradient - face.n * dot(gradient, face.n);
     let slope = length3_safe(flat);
     if !is_finite(slope) || slope <= 0.0 {
         return Trace(value, flat, 0.0, 0.0, 0.0);
     }
-    let along = cross(face.n, flat / slope);
-    let rate = 1.0 / max(screen_distance(1.0 / slope, along, face.n, direction, face.footprint), 1e-30);
-    let away = min(abs(value) / max(rate, 1e-30), 1e9);
-    return Trace(value, flat, slope, rate, line_coverage(away, 2.0 * settings.isoline_width, sample_window()));
+    let rate = screen_rate(sight, face.t, face.n, flat);
+    let line = line_coverage(pixels_away(abs(value), rate), 2.0 * settings.isoline_width, sample_window());
+    return Trace(value, flat, slope, rate, line);
 }
 
 // Where one Newton step ends.
@@ -594,25 +583,25 @@ fn is_zero_there(jet: vec4f, value: f32) -> bool {
 }
 
 // Lines and tint on a face. `behind` tells the walls behind from those in front, `crossed` whether the level's line is one.
-fn wall_on(trace: Trace, undefined: bool, crossed: bool, pixel: vec2f, behind: bool) -> Wall {
+fn wall_on(trace: Trace, undefined: bool, crossed: bool, pixel: vec2f, behind: bool) -> Layer {
     let window = sample_window();
     if undefined {
         let opacity = select(0.12, 0.30, behind);
-        return Wall(vec3f(0.45), opacity * hatch(pixel, 1.0, 7.0, 0.3, window));
+        return Layer(vec3f(0.45), opacity * hatch(pixel, 1.0, 7.0, 0.3, window));
     }
     let side = select(settings.outside, settings.inside, trace.value < 0.0);
-    var wall = Wall(vec3f(1.0), 0.0);
+    var wall = Layer(vec3f(1.0), 0.0);
     if behind {
-        wall = Wall(mix(side, vec3f(1.0), 0.5), 0.22);
+        wall = Layer(mix(side, vec3f(1.0), 0.5), 0.22);
     }
     if trace.slope <= 0.0 {
         return wall;
     }
     if behind && settings.isoline_spacing > 0.0 {
-        wall = paint(wall, mix(side, INK, 0.45), 0.5 * family_coverage(trace.value, trace.rate, window));
+        wall = layer_over(Layer(mix(side, INK, 0.45), 0.5 * family_coverage(trace.value, trace.rate, window)), wall);
     }
     if crossed {
-        wall = paint(wall, INK, trace.line * select(0.55, 0.85, behind));
+        wall = layer_over(Layer(INK, trace.line * select(0.55, 0.85, behind)), wall);
     }
     return wall;
 }
@@ -636,20 +625,20 @@ fn family_coverage(value: f32, rate: f32, window: f32) -> f32 {
 }
 
 // The faces of the box that the ray meets, over what lies behind them. The far one is hidden by the surface.
-fn over_box(under: vec3f, ray: Ray, span: vec2f, hidden: bool, pixel: vec2f) -> vec3f {
+fn over_box(under: vec3f, sight: Sight, span: vec2f, hidden: bool, pixel: vec2f) -> vec3f {
     var colour = under;
     for (var k = view.zero; k < 2u; k++) {
         let behind = k == 0u;
-        let face = face_of(ray, span, behind, hidden);
+        let face = face_of(sight.ray, span, behind, hidden);
         if face.drawn {
-            colour = over_wall(colour, face, ray, pixel, behind);
+            colour = over_wall(colour, face, sight, pixel, behind);
         }
     }
     return colour;
 }
 
 // A face of the box, over what lies behind it.
-fn over_wall(under: vec3f, face: Face, ray: Ray, pixel: vec2f, behind: bool) -> vec3f {
+fn over_wall(under: vec3f, face: Face, sight: Sight, pixel: vec2f, behind: bool) -> vec3f {
     var trace: Trace;
     var undefined = false;
     var crossed = false;
@@ -663,28 +652,19 @@ fn over_wall(under: vec3f, face: Face, ray: Ray, pixel: vec2f, behind: bool) -> 
         }
         undefined = is_nan(jet.w);
         let value = clamp(jet.w - settings.level, -LARGEST, LARGEST);
-        trace = trace_on(face, value, jet.xyz - face.n * dot(jet.xyz, face.n), ray.direction);
+        trace = trace_on(face, value, jet.xyz, sight);
         if undefined || !(trace.line > 0.0) {
             break;
         }
         p = newton_point(face, trace);
     }
     let wall = wall_on(trace, undefined, crossed, pixel, behind);
-    let edge = edge_coverage(face.p, face.n, ray.direction, face.footprint);
+    let edge = edge_layer(sight, face.t, face.n, settings.center, settings.box, settings.edge_width, behind);
     let colour = mix(under, wall.colour, wall.opacity * settings.wall_opacity);
-    return mix(colour, INK, edge * select(0.8, 0.6, behind));
+    return mix(colour, edge.colour, edge.opacity);
 }
 
 // ---- Ground and sky ------------------------------------------------------------------------------------------
-
-fn ground_height() -> f32 {
-    return settings.center.z - settings.box.z;
-}
-
-fn sky_colour(direction: vec3f) -> vec3f {
-    let height = clamp(direction.z, 0.0, 1.0);
-    return settings.background * mix(vec3f(1.0), vec3f(0.60, 0.68, 0.80), 1.0 - exp2(-2.5 * height));
-}
 
 // The point of the box's floor, or the box, that is nearest to a point of the ground.
 fn nearest_in_box(p: vec3f) -> vec3f {
@@ -709,59 +689,26 @@ fn shadow_path(p: vec3f) -> Path {
 
 // Where the shadow is looked for: not so far away that haze hides it.
 fn may_be_shadowed(p: vec3f) -> bool {
-    return settings.shadow > 0.0 && ground_distance(p) < 8.0;
+    return settings.shadow > 0.0 && ground_distance(p, settings.center, settings.box) < 8.0;
 }
 
-// Distance along the ground from the centre, in sizes of the box.
-fn ground_distance(p: vec3f) -> f32 {
-    return length(p.xy - settings.center.xy) / max(length(settings.box), 1e-20);
-}
-
-fn ground_colour(p: vec3f, jet: vec4f, direction: vec3f, shadowed: bool) -> vec3f {
+fn lit_ground(p: vec3f, jet: vec4f, direction: vec3f, shadowed: bool) -> vec3f {
     let light = ground_openness(p, jet) * (1.0 - settings.shadow * select(0.0, 0.55, shadowed));
-    let away = ground_distance(p);
-    let haze = 1.0 - exp2(-0.012 * away * away);
-    return mix(settings.background * vec3f(0.90, 0.89, 0.87) * light, sky_colour(direction), haze);
-}
-
-// Distance to the ground on a ray, or 0 where the ray sees the sky.
-fn ground_hit(ray: Ray) -> f32 {
-    let height = ray.origin.z - ground_height();
-    if height > 0.0 && ray.direction.z < -1e-6 {
-        return height / -ray.direction.z;
-    }
-    return 0.0;
+    return ground_colour(p, direction, light, settings.center, settings.box, settings.background);
 }
 
 // ---- The picture ---------------------------------------------------------------------------------------------
 
-// Side of one sample's share of a pixel, in pixels: the window of every filter here.
-fn sample_window() -> f32 {
-    return 1.0 / f32(max(view.samples, 1u));
-}
-
-fn camera_distance() -> f32 {
-    if settings.distance > 0.0 {
-        return settings.distance;
-    }
-    return 0.98 * length(settings.box) / sin(0.5 * clamp(settings.fov, 1.0, 120.0) * DEGREE);
-}
-
-fn camera_ray(pixel: vec2f) -> Ray {
-    let pitch = clamp(settings.pitch, -89.0, 89.0) * DEGREE;
-    let fov = clamp(settings.fov, 1.0, 120.0) * DEGREE;
-    return orbit_ray(pixel, view.size, settings.center, settings.yaw * DEGREE, pitch, camera_distance(), fov);
-}
-
 fn shade(pixel: vec2f) -> vec4f {
-    let ray = camera_ray(pixel);
+    let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
+    let ray = sight.ray;
     let span = box_span(ray.origin, ray.direction, settings.center, settings.box);
-    let ground = ground_hit(ray);
+    let ground = ground_hit(ray, settings.center, settings.box);
     let ground_point = ray.origin + ground * ray.direction;
     // The eye's path, and then, where it ends on the ground, the light's. Drivers copy a function to where it is
     // called; the loop makes that one place.
-    let sight = path_within(ray, span, settings.steps);
-    var path = sight;
+    let seen = path_within(ray, span, settings.steps);
+    var path = seen;
     var hit = NO_HIT;
     var shadowed = false;
     for (var leg = view.zero; leg < 2u; leg++) {
@@ -776,16 +723,16 @@ fn shade(pixel: vec2f) -> vec4f {
         }
         path = shadow_path(ground_point);
     }
-    let base = select(nearest_in_box(ground_point), spot_point(sight, hit), hit.found);
+    let base = select(nearest_in_box(ground_point), spot_point(seen, hit), hit.found);
     let light = look_at_base(base, ray.direction, hit, ground > 0.0);
     var colour: vec3f;
     if hit.found {
         colour = surface_colour(light.spot, ray.direction, light.closed);
     } else if ground > 0.0 {
-        colour = ground_colour(ground_point, light.jet, ray.direction, shadowed);
+        colour = lit_ground(ground_point, light.jet, ray.direction, shadowed);
     } else {
-        colour = sky_colour(ray.direction);
+        colour = sky_at(ray.direction, settings.background);
     }
-    colour = over_box(colour, ray, span, hit.found, pixel);
+    colour = over_box(colour, sight, span, hit.found, pixel);
     return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
 }

@@ -13,9 +13,8 @@
 // | exposure, tone, gamma  |          | of the radiance; 0 Reinhard, 1 none; exponent 1/gamma after that |
 // | jitter                 |          | how far stretches begin at another place in each sample |
 // | steps                  |          | stretches along the diagonal of the box |
-// | yaw, pitch, fov        | degrees  | of the camera |
-// | distance               | world    | of the camera, 0: the box fills the view |
-// | light_yaw, light_pitch | degrees  | of the light, from the camera's yaw |
+// | camera                 |          | where it is and how it sees |
+// | light_yaw, light_pitch | degrees  | of the light; yaw from the camera or from +x |
 // | background, edge_width | linear   | behind the box; pixels, of its edges |
 //
 // Where f is undefined the box is empty; infinite values are as dense as the largest. A constant is an even fog.
@@ -29,6 +28,19 @@ struct View {
     samples: u32,      // supersamples per axis, >= 1
     zero: u32,         // always 0, but the shader compiler does not know
     tile_size: vec2u,  // this tile, pixels
+}
+
+struct Camera {
+    eye: vec3f,
+    yaw: f32,
+    aim: vec3f,
+    pitch: f32,
+    up: vec3f,
+    distance: f32,
+    fov: f32,
+    extent: f32,
+    camera: u32,
+    projection: u32,
 }
 
 struct Settings {
@@ -47,12 +59,10 @@ struct Settings {
     gamma: f32,
     jitter: f32,
     steps: u32,
-    yaw: f32,
-    pitch: f32,
-    distance: f32,
-    fov: f32,
+    camera: Camera,
     light_yaw: f32,
     light_pitch: f32,
+    light_from: u32,
     background: vec3f,
     edge_width: f32,
 }
@@ -66,6 +76,7 @@ struct Sight {
     ray: Ray,
     forward: vec3f,
     slope: f32,
+    parallel: bool,
 }
 
 struct Medium {
@@ -97,8 +108,8 @@ struct Seen {
 // (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
 fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
 
-fn direction_from_angles(yaw: f32, pitch: f32) -> vec3f { return vec3f(); }
-fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
+fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
 fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 { return 0.0; }
@@ -109,7 +120,6 @@ fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec
 fn sample_phase(pixel: vec2f) -> f32 { return 0.0; }
 fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f { return vec3f(); }
 
-const DEGREE: f32 = 0.017453292519943295;
 const EDGE: vec3f = vec3f(0.42, 0.45, 0.50);
 // What has to come through for more of a ray to be looked at.
 const THINNEST: f32 = 0.0005;
@@ -128,7 +138,7 @@ fn medium() -> Medium {
         settings.negative,
         settings.core,
         settings.lighting,
-        direction_from_angles((settings.yaw + settings.light_yaw) * DEGREE, settings.light_pitch * DEGREE),
+        light_toward(settings.camera, settings.light_yaw, settings.light_pitch, settings.light_from),
     );
 }
 
@@ -156,7 +166,7 @@ fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     if span.y <= max(span.x, 0.0) {
         return vec4f(settings.background, 1.0);

@@ -20,9 +20,8 @@
 // | line_width, zero_width | pixels   | of lines on the cut, and of the line f = 0 |
 // | line_opacity, ink      | linear   | of lines on the cut |
 // | cut_opacity            |          | of the colours on the cut |
-// | yaw, pitch, fov        | degrees  | of the camera |
-// | distance               | world    | of the camera, 0: the box fills the view |
-// | light_yaw, light_pitch | degrees  | of the light, from the camera's yaw |
+// | camera                 |          | where it is and how it sees |
+// | light_yaw, light_pitch | degrees  | of the light; yaw from the camera or from +x |
 // | background, edge_width | linear   | behind the box; pixels, of its edges |
 //
 // Where f is undefined the box is empty; infinite values are as dense as the largest. A constant is an even fog.
@@ -36,6 +35,19 @@ struct View {
     samples: u32,      // supersamples per axis, >= 1
     zero: u32,         // always 0, but the shader compiler does not know
     tile_size: vec2u,  // this tile, pixels
+}
+
+struct Camera {
+    eye: vec3f,
+    yaw: f32,
+    aim: vec3f,
+    pitch: f32,
+    up: vec3f,
+    distance: f32,
+    fov: f32,
+    extent: f32,
+    camera: u32,
+    projection: u32,
 }
 
 struct Settings {
@@ -64,12 +76,10 @@ struct Settings {
     zero_width: f32,
     line_opacity: f32,
     cut_opacity: f32,
-    yaw: f32,
-    pitch: f32,
-    distance: f32,
-    fov: f32,
+    camera: Camera,
     light_yaw: f32,
     light_pitch: f32,
+    light_from: u32,
     background: vec3f,
     edge_width: f32,
 }
@@ -83,6 +93,7 @@ struct Sight {
     ray: Ray,
     forward: vec3f,
     slope: f32,
+    parallel: bool,
 }
 
 struct Medium {
@@ -134,8 +145,8 @@ struct Layer {
 // (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
 fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
 
-fn direction_from_angles(yaw: f32, pitch: f32) -> vec3f { return vec3f(); }
-fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight { return Sight(); }
+fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
+fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
 fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 { return 0.0; }
@@ -156,7 +167,6 @@ fn contour_opacity(value: f32, rate: f32, contours: Contours) -> f32 { return 0.
 fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
 fn layer_over(front: Layer, back: Layer) -> Layer { return Layer(); }
 
-const DEGREE: f32 = 0.017453292519943295;
 const EDGE: vec3f = vec3f(0.42, 0.45, 0.50);
 // What has to come through for more of a ray to be looked at.
 const THINNEST: f32 = 0.0005;
@@ -175,7 +185,7 @@ fn medium() -> Medium {
         settings.negative,
         settings.core,
         settings.lighting,
-        direction_from_angles((settings.yaw + settings.light_yaw) * DEGREE, settings.light_pitch * DEGREE),
+        light_toward(settings.camera, settings.light_yaw, settings.light_pitch, settings.light_from),
     );
 }
 
@@ -237,7 +247,7 @@ fn met_in_part(sight: Sight, part: Kept, n: vec3f, pixel: vec2f) -> Met {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let sight = sight_at(pixel, settings.center, settings.box, settings.yaw, settings.pitch, settings.distance, settings.fov);
+    let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     if span.y <= max(span.x, 0.0) {
         return vec4f(settings.background, 1.0);

@@ -20,12 +20,20 @@ fn schlick_fresnel(cosine: f32, f0: f32) -> f32 {
     return f0 + (1.0 - f0) * c2 * c2 * c;
 }
 
+// What lights a scene.
+struct Lamp {
+    toward: vec3f,        // where the sun is, of length 1
+    strength: f32,        // of the sun
+    surroundings: vec3f,  // colour of the horizon
+    ambient: f32,         // strength of the light of sky and ground
+}
+
 // Light that reaches the eye from a surface of one colour: light of sky and ground, a wrapped sun, its highlight, and a
-// rim in the colour of the surroundings.
-fn lit_colour(colour: vec3f, n: vec3f, l: vec3f, v: vec3f, surroundings: vec3f) -> vec3f {
-    let sky = mix(vec3f(0.24, 0.21, 0.19), vec3f(0.36, 0.40, 0.46), 0.5 + 0.5 * n.z);
-    let sun = vec3f(1.06, 1.00, 0.91) * wrap_diffuse(n, l, 0.35);
-    let gloss = blinn_specular(n, l, v, 110.0) * 0.30;
-    let rim = (schlick_fresnel(abs(dot(n, v)), 0.03) - 0.03) * 0.30;
-    return colour * (sky + sun) + vec3f(gloss) + rim * surroundings;
+// rim in the colour of the surroundings. `open` is the part of the sky that is not hidden.
+fn lit_colour(colour: vec3f, n: vec3f, v: vec3f, open: f32, lamp: Lamp) -> vec3f {
+    let sky = lamp.ambient * mix(vec3f(0.24, 0.21, 0.19), vec3f(0.36, 0.40, 0.46), 0.5 + 0.5 * n.z);
+    let sun = lamp.strength * (vec3f(1.06, 1.00, 0.91) * wrap_diffuse(n, lamp.toward, 0.35) * mix(1.0, open, 0.6));
+    let gloss = lamp.strength * (blinn_specular(n, lamp.toward, v, 110.0) * 0.30 * open);
+    let rim = lamp.ambient * ((schlick_fresnel(abs(dot(n, v)), 0.03) - 0.03) * 0.30 * open);
+    return colour * (sky * open + sun) + vec3f(gloss) + rim * lamp.surroundings;
 }

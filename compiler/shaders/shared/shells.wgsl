@@ -8,8 +8,7 @@ struct Shells {
     opaque_opacity: f32,
     ghost_opacity: f32,       // of the others, seen face on
     lighting: f32,            // 0: all colours as they are
-    light: vec3f,             // towards it
-    surroundings: vec3f,      // colour of the horizon
+    lamp: Lamp,
 }
 
 struct Layer {
@@ -60,7 +59,7 @@ fn shell_layer(level: i32, touching: bool, gradient: vec3f, direction: vec3f, sh
     let own = shell_colour(level, shells.family.count);
     let colour = select(mix(own, vec3f(1.0), 0.3), own, outside || touching);
     // white paint reflects four fifths
-    let lit = lit_colour(0.8 * colour, n, shells.light, -direction, shells.surroundings);
+    let lit = lit_colour(0.8 * colour, n, -direction, 1.0, shells.lamp);
     var opacity = shells.opaque_opacity;
     if level != shells.opaque_level {
         let slant = max(-dot(n, direction), 0.125);

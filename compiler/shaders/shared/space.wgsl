@@ -1,31 +1,9 @@
-// Scenes of space: what an orbiting camera sees of a box, planes in it, and lines on them that are as wide on the screen
-// as they are said to be.
-
-// What is seen through a point of the image.
-struct Sight {
-    ray: Ray,
-    forward: vec3f,  // the way the camera looks, of length 1
-    slope: f32,      // tangent of the angle that a pixel in the middle of the image spans
-}
-
-// How far away a box of this half size fills a field of view of `fov` radians.
-fn fitting_distance(half_size: vec3f, fov: f32) -> f32 {
-    return 0.98 * length(half_size) / sin(0.5 * fov);
-}
-
-// The camera of the space scenes' settings, angles in degrees; `distance` 0: the box fills the view.
-fn sight_at(pixel: vec2f, center: vec3f, half_size: vec3f, yaw: f32, pitch: f32, distance: f32, fov: f32) -> Sight {
-    let degree = 0.017453292519943295;
-    let field = clamp(fov, 1.0, 120.0) * degree;
-    let up = clamp(pitch, -89.0, 89.0) * degree;
-    let away = select(fitting_distance(half_size, field), distance, distance > 0.0);
-    let ray = orbit_ray(pixel, view.size, center, yaw * degree, up, away, field);
-    return Sight(ray, -direction_from_angles(yaw * degree, up), slope_per_pixel(view.size, field));
-}
+// Scenes of space: what a camera sees of a box, planes in it, and lines on them that are as wide on the screen as they
+// are said to be.
 
 // Change per pixel, in the direction in which it changes most on the screen, of a function with this gradient on the
-// plane with normal n that the sight meets at distance t. It is exact in perspective: with pixels q and p(q) the point
-// of the plane, ∂p/∂q = depth slope (R - d (n·R)/(n·d)) for the image's axes R, so that the function changes by R·h with
+// plane with normal n that the sight meets at distance t. It is exact: with pixels q and p(q) the point of the plane,
+// ∂p/∂q = footprint (R - d (n·R)/(n·d)) for the image's axes R, so that the function changes by R·h with
 // h = ∇f - n (∇f·d)/(n·d). Kept within 1e37; negative where the gradient is undefined.
 fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 {
     if is_nan(gradient.x) || is_nan(gradient.y) || is_nan(gradient.z) {
@@ -44,7 +22,7 @@ fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 {
     let tilt = select(across, select(1e-6, -1e-6, across < 0.0), abs(across) < 1e-6);
     let h = g - n * (dot(g, d) / tilt);
     let flat = h - sight.forward * dot(h, sight.forward);
-    let rate = length(flat) * (t * dot(d, sight.forward) * sight.slope);
+    let rate = length(flat) * sight_footprint(sight, t);
     return rate * min(size, 1e37 / max(rate, 1.0));
 }
 
@@ -160,17 +138,35 @@ fn sky_at(direction: vec3f, background: vec3f) -> vec3f {
     return background * mix(vec3f(1.0), vec3f(0.60, 0.68, 0.80), 1.0 - exp2(-2.5 * height));
 }
 
-// Behind a box that stands on the ground: the ground, darker where the box touches it, fading into the sky.
-fn stage_colour(ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec3f {
-    let sky = sky_at(ray.direction, background);
+// Distance along a ray to the ground that the box stands on, 0 where the ray sees the sky.
+fn ground_hit(ray: Ray, center: vec3f, half_size: vec3f) -> f32 {
     let height = ray.origin.z - (center.z - half_size.z);
-    if height <= 0.0 || ray.direction.z > -1e-6 {
-        return sky;
+    if height > 0.0 && ray.direction.z < -1e-6 {
+        return height / -ray.direction.z;
     }
-    let p = ray.origin - ray.direction * (height / ray.direction.z);
+    return 0.0;
+}
+
+// Distance along the ground from the centre, in sizes of the box.
+fn ground_distance(p: vec3f, center: vec3f, half_size: vec3f) -> f32 {
+    return length(p.xy - center.xy) / max(length(half_size), 1e-20);
+}
+
+// A point of the ground that a part `light` of the light reaches, fading into the sky.
+fn ground_colour(p: vec3f, direction: vec3f, light: f32, center: vec3f, half_size: vec3f, background: vec3f) -> vec3f {
+    let away = ground_distance(p, center, half_size);
+    let haze = 1.0 - exp2(-0.012 * away * away);
+    return mix(background * vec3f(0.90, 0.89, 0.87) * light, sky_at(direction, background), haze);
+}
+
+// Behind a box that stands on the ground: the ground, darker where the box touches it, and the sky.
+fn stage_colour(ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec3f {
+    let t = ground_hit(ray, center, half_size);
+    if t <= 0.0 {
+        return sky_at(ray.direction, background);
+    }
+    let p = ray.origin + t * ray.direction;
     let reach = 0.30 * length(half_size.xy);
     let aside = length(max(abs(p.xy - center.xy) - half_size.xy, vec2f(0.0)));
-    let away = length(p.xy - center.xy) / max(length(half_size), 1e-20);
-    let light = 1.0 - 0.22 * exp2(-2.5 * aside / reach);
-    return mix(background * vec3f(0.90, 0.89, 0.87) * light, sky, 1.0 - exp2(-0.012 * away * away));
+    return ground_colour(p, ray.direction, 1.0 - 0.22 * exp2(-2.5 * aside / reach), center, half_size, background);
 }

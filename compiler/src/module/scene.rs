@@ -1,7 +1,7 @@
 //! A scene with a formula in it.
 
 use naga::valid::ModuleInfo;
-use naga::{Module, ScalarKind, TypeInner};
+use naga::{Module, ScalarKind, StructMember, TypeInner};
 
 use super::demand::Demand;
 use super::{ModuleError, validate};
@@ -123,21 +123,30 @@ fn layout(scene: &Scene) -> (Vec<Member>, usize) {
     let TypeInner::Struct { members, span } = &module.types[settings.ty].inner else {
         return (Vec::new(), 16);
     };
-    let members = members
-        .iter()
-        .filter_map(|m| {
-            let (kind, count) = match module.types[m.ty].inner {
-                TypeInner::Scalar(scalar) => (scalar.kind, 1),
-                TypeInner::Vector { size, scalar } => (scalar.kind, size as usize),
-                _ => return None,
-            };
-            Some(Member {
-                name: m.name.clone()?,
-                offset: m.offset as usize,
-                kind,
-                count,
-            })
-        })
-        .collect();
+    let mut found = Vec::new();
+    add_members(module, members, 0, &mut found);
+    let members = found;
     (members, (*span as usize).next_multiple_of(16).max(16))
+}
+
+/// Members with a number or a vector, those of structures within among them.
+fn add_members(module: &Module, members: &[StructMember], base: u32, out: &mut Vec<Member>) {
+    for member in members {
+        let offset = base + member.offset;
+        let (kind, count) = match &module.types[member.ty].inner {
+            TypeInner::Scalar(scalar) => (scalar.kind, 1),
+            TypeInner::Vector { size, scalar } => (scalar.kind, *size as usize),
+            TypeInner::Struct { members, .. } => {
+                add_members(module, members, offset, out);
+                continue;
+            }
+            _ => continue,
+        };
+        out.extend(member.name.clone().map(|name| Member {
+            name,
+            offset: offset as usize,
+            kind,
+            count,
+        }));
+    }
 }

@@ -4,7 +4,7 @@ use super::SettingValue;
 use super::checker::Checker;
 use super::params::infinity_or_nan;
 use crate::check::{nearest, not_constant, quoted};
-use crate::scene::{Scene, SettingKind, SettingSpec};
+use crate::scene::{Scene, SettingKind, SettingSpec, conflicts};
 use crate::types::Type;
 use glam::DVec3;
 use pullback_grammar::ast::{Expr, ExprId, Show};
@@ -57,7 +57,30 @@ impl<'a> Checker<'a> {
                 slot.value = value;
             }
         }
+        self.conflicts_of(scene, show, &settings);
         settings
+    }
+
+    /// Reports settings that make no sense together.
+    fn conflicts_of(&mut self, scene: &Scene, show: &Show, settings: &[SettingValue]) {
+        let place = |name: &str| {
+            let setting = show.settings.iter().find(|s| s.name.text == name)?;
+            Some(setting.name.span.join(self.file.exprs.span(setting.value)))
+        };
+        let given = |name: &str| place(name).is_some();
+        let mut found = Vec::new();
+        for conflict in conflicts(scene, settings, &given) {
+            let span = conflict.settings.iter().find_map(|name| place(name));
+            found.push(
+                Diagnostic::error(
+                    "setting-conflict",
+                    span.unwrap_or(show.scene.span),
+                    conflict.message,
+                )
+                .with_hint(conflict.hint),
+            );
+        }
+        self.diagnostics.extend(found);
     }
 
     pub(super) fn unknown_setting(&mut self, scene: &Scene, name: &pullback_grammar::ast::Name) {

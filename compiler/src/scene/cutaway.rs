@@ -1,6 +1,6 @@
 //! The settings of `cutaway`.
 
-use super::{Scene, SettingSpec, Space, space};
+use super::{Scene, SettingSpec, Space, camera, space};
 
 /// A family of level sets in space, cut open by a plane that shows the values.
 pub const SCENE: Scene = Scene {
@@ -48,12 +48,21 @@ pub const SCENE: Scene = Scene {
         space::ISOLINE_WIDTH,
         space::WALL_OPACITY,
         space::LIGHTING,
-        space::YAW,
-        space::PITCH,
-        space::DISTANCE,
-        space::FOV,
-        space::LIGHT_YAW,
-        space::LIGHT_PITCH,
+        camera::CAMERA,
+        camera::PROJECTION,
+        camera::YAW,
+        camera::PITCH,
+        camera::DISTANCE,
+        camera::FOV,
+        camera::EXTENT,
+        camera::EYE,
+        camera::AIM,
+        camera::UP,
+        camera::LIGHT_YAW,
+        camera::LIGHT_PITCH,
+        camera::LIGHT_FROM,
+        camera::LIGHT_STRENGTH,
+        camera::AMBIENT,
         space::BACKDROP,
         space::BACKGROUND,
         space::EDGE_WIDTH,

@@ -1,6 +1,6 @@
 //! The settings of `glow`.
 
-use super::{Scene, SettingSpec, Space, space};
+use super::{Scene, SettingSpec, Space, camera, space};
 
 /// Light that is emitted around the zeros of a distance-like field.
 pub const SCENE: Scene = Scene {
@@ -72,10 +72,16 @@ pub const SCENE: Scene = Scene {
             (0.0, 1.0),
             "height of noise that is added, linear",
         ),
-        space::YAW,
-        space::PITCH,
-        space::DISTANCE,
-        space::FOV,
+        camera::CAMERA,
+        camera::PROJECTION,
+        camera::YAW,
+        camera::PITCH,
+        camera::DISTANCE,
+        camera::FOV,
+        camera::EXTENT,
+        camera::EYE,
+        camera::AIM,
+        camera::UP,
         space::DARK,
         SettingSpec::precision(),
     ],

@@ -1,7 +1,9 @@
 //! Scenes: a WGSL template and a settings record each.
 
 mod bands;
+mod camera;
 mod checker;
+mod combination;
 mod cutaway;
 mod domain;
 mod glow;
@@ -24,6 +26,7 @@ use std::sync::OnceLock;
 use naga::Module;
 use rustc_hash::FxHashMap;
 
+pub use combination::{Conflict, conflicts};
 pub use setting::{SettingKind, SettingSpec};
 
 use crate::link::parse_wgsl;

@@ -1,6 +1,6 @@
 //! The settings of `scatter`.
 
-use super::{Scene, SettingSpec, Space, space};
+use super::{Scene, SettingSpec, Space, camera, space};
 
 /// A function of space as the density of a cloud.
 pub const SCENE: Scene = Scene {
@@ -57,12 +57,19 @@ pub const SCENE: Scene = Scene {
             (1.0, 4096.0),
             "the same on the way from the light, for each of those stretches",
         ),
-        space::YAW,
-        space::PITCH,
-        space::DISTANCE,
-        space::FOV,
-        space::LIGHT_YAW,
-        space::LIGHT_PITCH,
+        camera::CAMERA,
+        camera::PROJECTION,
+        camera::YAW,
+        camera::PITCH,
+        camera::DISTANCE,
+        camera::FOV,
+        camera::EXTENT,
+        camera::EYE,
+        camera::AIM,
+        camera::UP,
+        camera::LIGHT_YAW,
+        camera::LIGHT_PITCH,
+        camera::LIGHT_FROM,
         SettingSpec::colour(
             "background",
             [0.30, 0.45, 0.68],

@@ -1,6 +1,6 @@
 //! The settings of `slices`.
 
-use super::{Scene, SettingSpec, Space, space};
+use super::{Scene, SettingSpec, Space, camera, space};
 
 /// A real function of space on planes.
 pub const SCENE: Scene = Scene {
@@ -64,10 +64,16 @@ pub const SCENE: Scene = Scene {
             "pixels, of the lines of the grid where a coordinate is 0: red along x, green along y, blue along z",
         ),
         space::EDGE_WIDTH,
-        space::YAW,
-        space::PITCH,
-        space::DISTANCE,
-        space::FOV,
+        camera::CAMERA,
+        camera::PROJECTION,
+        camera::YAW,
+        camera::PITCH,
+        camera::DISTANCE,
+        camera::FOV,
+        camera::EXTENT,
+        camera::EYE,
+        camera::AIM,
+        camera::UP,
         space::BACKGROUND,
         SettingSpec::precision(),
     ],

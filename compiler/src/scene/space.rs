@@ -1,4 +1,4 @@
-//! Settings that scenes of space share: the box, its camera, planes that cut it, and how values are drawn.
+//! Settings that scenes of space share: the box, planes that cut it, and how values are drawn.
 
 use super::SettingSpec;
 
@@ -16,42 +16,6 @@ pub(super) const CENTER: SettingSpec = SettingSpec::vec3(
     [0.0; 3],
     (-1e6, 1e6),
     "centre of the box, world units",
-);
-pub(super) const YAW: SettingSpec = SettingSpec::real(
-    "yaw",
-    32.0,
-    (-3600.0, 3600.0),
-    "degrees, of the camera about z, from +x towards +y",
-);
-pub(super) const PITCH: SettingSpec = SettingSpec::real(
-    "pitch",
-    24.0,
-    (-89.0, 89.0),
-    "degrees, of the camera above the ground",
-);
-pub(super) const DISTANCE: SettingSpec = SettingSpec::real(
-    "distance",
-    0.0,
-    (0.0, 1e6),
-    "from the camera to the centre; 0: the box fills the view",
-);
-pub(super) const FOV: SettingSpec = SettingSpec::real(
-    "fov",
-    28.0,
-    (1.0, 120.0),
-    "degrees, across the shorter side of the picture",
-);
-pub(super) const LIGHT_YAW: SettingSpec = SettingSpec::real(
-    "light_yaw",
-    -50.0,
-    (-3600.0, 3600.0),
-    "degrees, of the light about z, from the camera's yaw",
-);
-pub(super) const LIGHT_PITCH: SettingSpec = SettingSpec::real(
-    "light_pitch",
-    52.0,
-    (-90.0, 90.0),
-    "degrees, of the light above the ground",
 );
 pub(super) const BACKGROUND: SettingSpec = SettingSpec::colour(
     "background",

@@ -1,6 +1,6 @@
 //! The settings of `surface`.
 
-use super::{Scene, SettingSpec, Space, space};
+use super::{Scene, SettingSpec, Space, camera, space};
 
 /// A level set in space, lit, in a box on the ground.
 pub const SCENE: Scene = Scene {
@@ -23,12 +23,21 @@ pub const SCENE: Scene = Scene {
             (8.0, 4096.0),
             "samples along the diagonal of the box",
         ),
-        space::YAW,
-        space::PITCH,
-        space::DISTANCE,
-        space::FOV,
-        space::LIGHT_YAW,
-        space::LIGHT_PITCH,
+        camera::CAMERA,
+        camera::PROJECTION,
+        camera::YAW,
+        camera::PITCH,
+        camera::DISTANCE,
+        camera::FOV,
+        camera::EXTENT,
+        camera::EYE,
+        camera::AIM,
+        camera::UP,
+        camera::LIGHT_YAW,
+        camera::LIGHT_PITCH,
+        camera::LIGHT_FROM,
+        camera::LIGHT_STRENGTH,
+        camera::AMBIENT,
         SettingSpec::colour(
             "outside",
             [0.66, 0.23, 0.085],

@@ -1,6 +1,6 @@
 //! The settings of `volume`.
 
-use super::{Scene, SettingSpec, Space, space};
+use super::{Scene, SettingSpec, Space, camera, space};
 
 /// A function of space as a luminous gas.
 pub const SCENE: Scene = Scene {
@@ -24,12 +24,19 @@ pub const SCENE: Scene = Scene {
         space::GAMMA,
         space::JITTER,
         space::STRETCHES,
-        space::YAW,
-        space::PITCH,
-        space::DISTANCE,
-        space::FOV,
-        space::LIGHT_YAW,
-        space::LIGHT_PITCH,
+        camera::CAMERA,
+        camera::PROJECTION,
+        camera::YAW,
+        camera::PITCH,
+        camera::DISTANCE,
+        camera::FOV,
+        camera::EXTENT,
+        camera::EYE,
+        camera::AIM,
+        camera::UP,
+        camera::LIGHT_YAW,
+        camera::LIGHT_PITCH,
+        camera::LIGHT_FROM,
         space::DARK,
         space::EDGE_WIDTH,
         SettingSpec::precision(),

@@ -1,6 +1,6 @@
 //! The settings of `volumecut`.
 
-use super::{Scene, SettingSpec, Space, space};
+use super::{Scene, SettingSpec, Space, camera, space};
 
 /// A function of space as a luminous gas, cut open.
 pub const SCENE: Scene = Scene {
@@ -43,12 +43,19 @@ pub const SCENE: Scene = Scene {
             (0.0, 1.0),
             "of the colours on the cut; the lines have their own",
         ),
-        space::YAW,
-        space::PITCH,
-        space::DISTANCE,
-        space::FOV,
-        space::LIGHT_YAW,
-        space::LIGHT_PITCH,
+        camera::CAMERA,
+        camera::PROJECTION,
+        camera::YAW,
+        camera::PITCH,
+        camera::DISTANCE,
+        camera::FOV,
+        camera::EXTENT,
+        camera::EYE,
+        camera::AIM,
+        camera::UP,
+        camera::LIGHT_YAW,
+        camera::LIGHT_PITCH,
+        camera::LIGHT_FROM,
         space::DARK,
         space::EDGE_WIDTH,
         SettingSpec::precision(),

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use glam::DVec3;
-use pullback_compiler::scene::{SettingKind, SettingSpec};
+use pullback_compiler::scene::{SettingKind, SettingSpec, conflicts};
 use pullback_compiler::{Picture, Program, SettingValue};
 
 use super::failure::Failure;
@@ -70,7 +70,13 @@ pub(super) fn for_picture(
     for assignment in assignments {
         assign(assignment, program, &mut params, &mut settings)?;
     }
-    Ok((params, settings))
+    let given = |name: &str| assignments.iter().any(|a| a.name == name);
+    match conflicts(picture.scene, &settings, &given).pop() {
+        Some(conflict) if !assignments.is_empty() => {
+            Err(Failure::usage_hint(conflict.message, conflict.hint))
+        }
+        _ => Ok((params, settings)),
+    }
 }
 
 /// Sets a parameter of the program or a setting of the picture.

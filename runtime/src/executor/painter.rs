@@ -304,7 +304,9 @@ impl<'a> Inputs<'a> {
 
     fn value(&self, component: &Component) -> Option<f64> {
         let (frame, k) = (self.frame, component.index);
-        if let Some(name) = component.path.strip_prefix("settings.") {
+        if let Some(path) = component.path.strip_prefix("settings.") {
+            // of a structure within, the last name is the setting's
+            let name = path.rsplit('.').next().unwrap_or(path);
             let setting = self.settings.iter().find(|s| s.spec.name == name)?;
             return setting.value.to_array().get(k).copied();
         }

@@ -9,6 +9,7 @@ mod extremes;
 mod glow;
 mod lines;
 mod nested;
+mod projection;
 mod scatter;
 mod slices;
 mod volume;

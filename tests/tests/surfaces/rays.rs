@@ -90,11 +90,28 @@ fn along(origin: Vec3, direction: Vec3, t: f64) -> Vec3 {
 
 /// The camera of the settings, as docs/scenes.md describes it.
 struct Camera {
-    origin: Vec3,
+    eye: Vec3,
+    /// To the right, up, and towards the viewer.
     axes: [Vec3; 3],
+    /// A pixel: at distance 1 in perspective.
     slope: f64,
+    parallel: bool,
     center: Vec3,
     half: Vec3,
+}
+
+#[derive(Clone, Copy)]
+struct Ray {
+    origin: Vec3,
+    direction: Vec3,
+}
+
+fn unit(v: Vec3) -> Vec3 {
+    v.map(|c| c / dot(v, v).sqrt())
+}
+
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    [0, 1, 2].map(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
 }
 
 impl Camera {
@@ -104,46 +121,62 @@ impl Camera {
             found.expect("a setting").value.to_array()
         };
         let number = |name: &str| value(name)[0];
-        let (yaw, pitch) = (number("yaw").to_radians(), number("pitch").to_radians());
-        let half_fov = 0.5 * number("fov").to_radians();
         let (center, half) = (value("center"), value("box"));
-        let distance = match number("distance") {
-            set if set > 0.0 => set,
-            _ => 0.98 * dot(half, half).sqrt() / half_fov.sin(),
+        let radius = dot(half, half).sqrt();
+        let parallel = number("projection") > 0.5;
+        let half_fov = 0.5 * number("fov").to_radians();
+        let or = |set: f64, automatic: f64| if set > 0.0 { set } else { automatic };
+        let distance = or(number("distance"), 0.98 * radius / half_fov.sin());
+        let (eye, axes) = if number("camera") > 0.5 {
+            let back = unit(along(value("eye"), value("aim"), -1.0));
+            let right = unit(cross(value("up"), back));
+            (value("eye"), [right, cross(back, right), back])
+        } else {
+            let (yaw, pitch) = (number("yaw").to_radians(), number("pitch").to_radians());
+            let (across, above) = (pitch.cos(), pitch.sin());
+            let back = [across * yaw.cos(), across * yaw.sin(), above];
+            let up = [-above * yaw.cos(), -above * yaw.sin(), across];
+            let away = if parallel { 8.0 * radius } else { distance };
+            let eye = along(center, back, away);
+            (eye, [[-yaw.sin(), yaw.cos(), 0.0], up, back])
         };
-        let back = [
-            pitch.cos() * yaw.cos(),
-            pitch.cos() * yaw.sin(),
-            pitch.sin(),
-        ];
-        let right = [-yaw.sin(), yaw.cos(), 0.0];
-        let up = [
-            -pitch.sin() * yaw.cos(),
-            -pitch.sin() * yaw.sin(),
-            pitch.cos(),
-        ];
+        let across = if parallel {
+            or(number("extent"), 1.96 * radius)
+        } else {
+            2.0 * half_fov.tan()
+        };
         Self {
-            origin: along(center, back, distance),
-            axes: [right, up, back],
-            slope: 2.0 * half_fov.tan() / f64::from(SIZE.width.min(SIZE.height)),
+            eye,
+            axes,
+            slope: across / f64::from(SIZE.width.min(SIZE.height)),
+            parallel,
             center,
             half,
         }
     }
 
-    fn direction(&self, pixel: [f64; 2]) -> Vec3 {
+    fn ray(&self, pixel: [f64; 2]) -> Ray {
         let x = self.slope * (pixel[0] - 0.5 * f64::from(SIZE.width));
         let y = -self.slope * (pixel[1] - 0.5 * f64::from(SIZE.height));
         let [right, up, back] = self.axes;
-        let d = [0, 1, 2].map(|k| x * right[k] + y * up[k] - back[k]);
-        d.map(|part| part / dot(d, d).sqrt())
+        let aside = along([0, 1, 2].map(|k| x * right[k]), up, y);
+        if self.parallel {
+            return Ray {
+                origin: along(self.eye, aside, 1.0),
+                direction: back.map(|c| -c),
+            };
+        }
+        Ray {
+            origin: self.eye,
+            direction: unit(along(aside, back, -1.0)),
+        }
     }
 
     /// Where the ray is in the box.
-    fn span(&self, direction: Vec3) -> Option<[f64; 2]> {
+    fn span(&self, ray: Ray) -> Option<[f64; 2]> {
         let mut span = [0.0, f64::INFINITY];
-        for (k, step) in direction.iter().enumerate() {
-            let wall = |side: f64| (self.center[k] + side * self.half[k] - self.origin[k]) / step;
+        for (k, step) in ray.direction.iter().enumerate() {
+            let wall = |side: f64| (self.center[k] + side * self.half[k] - ray.origin[k]) / step;
             let (a, b) = (wall(-1.0), wall(1.0));
             span = [span[0].max(a.min(b)), span[1].min(a.max(b))];
         }
@@ -152,16 +185,11 @@ impl Camera {
 }
 
 /// The first root on a ray, as a distance.
-fn first_root(
-    subject: &mut Subject,
-    degree: u32,
-    camera: &Camera,
-    direction: Vec3,
-) -> Option<Root> {
-    let [enter, leave] = camera.span(direction)?;
+fn first_root(subject: &mut Subject, degree: u32, camera: &Camera, ray: Ray) -> Option<Root> {
+    let [enter, leave] = camera.span(ray)?;
     let place = |x: f64| 0.5 * (enter + leave) + 0.5 * x * (leave - enter);
     let series = Series::fitted(degree as usize, |x| {
-        subject.value(along(camera.origin, direction, place(x)))
+        subject.value(along(ray.origin, ray.direction, place(x)))
     });
     let root = *series.roots(NOISE * series.size()).first()?;
     Some(Root {
@@ -170,8 +198,8 @@ fn first_root(
     })
 }
 
-/// Draws a surface ray by ray, and judges what was found. `steps` replaces those of its file.
-pub fn measure(surface: &Surface, steps: Option<f64>) -> Counts {
+/// Draws a surface ray by ray, and judges what was found. `changes` are settings that replace those of its file.
+pub fn measure(surface: &Surface, changes: &[(&str, Vec3)]) -> Counts {
     let mut subject = Subject::of(surface.name);
     let picture = &subject.program.pictures()[0];
     let view = View {
@@ -181,11 +209,12 @@ pub fn measure(surface: &Surface, steps: Option<f64>) -> Counts {
     let mut settings = picture.settings.clone();
     fill_in_scale(&mut settings, picture, &view, SIZE, &subject.params, 0.0);
     for setting in &mut settings {
-        match (setting.spec.name, steps) {
-            // No ray of light is of interest here.
-            ("shadow", _) => setting.value.x = 0.0,
-            ("steps", Some(steps)) => setting.value.x = steps,
-            _ => {}
+        // No ray of light is of interest here.
+        if setting.spec.name == "shadow" {
+            setting.value.x = 0.0;
+        }
+        if let Some((_, value)) = changes.iter().find(|c| c.0 == setting.spec.name) {
+            setting.value = (*value).into();
         }
     }
     let scene = subject.program.scene_module(0, Precision::Accurate);
@@ -213,9 +242,9 @@ pub fn measure(surface: &Surface, steps: Option<f64>) -> Counts {
             .trace(&frame, &settings, group, &mut observer)
             .expect("colours");
         for (pixel, found) in group.iter().zip(found) {
-            let direction = camera.direction(*pixel);
-            let root = first_root(&mut subject, surface.degree, &camera, direction);
-            judge(&mut counts, &camera, direction, root, found, &gradient);
+            let ray = camera.ray(*pixel);
+            let root = first_root(&mut subject, surface.degree, &camera, ray);
+            judge(&mut counts, &camera, ray, root, found, &gradient);
         }
     }
     counts
@@ -230,7 +259,7 @@ fn pixels() -> Vec<[f64; 2]> {
 fn judge(
     counts: &mut Counts,
     camera: &Camera,
-    direction: Vec3,
+    ray: Ray,
     root: Option<Root>,
     found: Found,
     gradient: &[Polynomial; 3],
@@ -248,7 +277,7 @@ fn judge(
         counts.missed += 1;
         return;
     };
-    let depth = dot(along(hit, camera.origin, -1.0), direction);
+    let depth = dot(along(hit, ray.origin, -1.0), ray.direction);
     let diagonal = 2.0 * dot(camera.half, camera.half).sqrt();
     let off = (depth - root.at).abs() / diagonal;
     if off > DEPTH {
@@ -256,7 +285,7 @@ fn judge(
         return;
     }
     counts.off = counts.off.max((1e6 * off).ceil() as usize);
-    let p = along(camera.origin, direction, root.at);
+    let p = along(ray.origin, ray.direction, root.at);
     let slope = [0, 1, 2].map(|k| gradient[k].at(p).value);
     let cosine = dot(slope, found.normal).abs() / dot(slope, slope).sqrt();
     counts.tilted += usize::from(cosine < 1f64.to_radians().cos());

@@ -91,7 +91,7 @@ fn measured() -> Vec<Counts> {
                     let Some(surface) = SURFACES.get(k) else {
                         break;
                     };
-                    let counts = measure(surface, None);
+                    let counts = measure(surface, &[]);
                     results.lock().expect("no panic")[k] = counts;
                 }
             });
@@ -157,6 +157,36 @@ fn rays_meet_the_surfaces_where_their_roots_are() {
 #[test]
 fn what_a_coarse_march_misses_is_counted() {
     let surface = SURFACES.iter().find(|s| s.name == "barth-decic");
-    let counts = measure(surface.expect("it"), Some(8.0));
+    let counts = measure(surface.expect("it"), &[("steps", [8.0; 3])]);
     assert!(counts.missed + counts.displaced > 5, "{counts:?}");
+}
+
+/// Depths and normals under the other cameras: no worse than under the one of the table, up to rays that touch.
+#[test]
+fn every_camera_finds_the_surfaces() {
+    const LOOK_AT: [(&str, [f64; 3]); 3] = [
+        ("camera", [1.0; 3]),
+        ("eye", [-9.0, 6.0, 7.0]),
+        ("up", [1.0, 0.0, 2.0]),
+    ];
+    const PARALLEL: (&str, [f64; 3]) = ("projection", [1.0; 3]);
+    let cameras: [(&str, Vec<(&str, [f64; 3])>); 4] = [
+        ("orbit", vec![("yaw", [75.0; 3]), ("pitch", [-40.0; 3])]),
+        ("look-at", LOOK_AT.to_vec()),
+        ("orthographic", vec![PARALLEL]),
+        ("orthographic look-at", [&LOOK_AT[..], &[PARALLEL]].concat()),
+    ];
+    for name in ["clebsch", "cayley", "torus", "heart", "barth-sextic"] {
+        let surface = SURFACES.iter().find(|s| s.name == name).expect("it");
+        for (camera, changes) in &cameras {
+            let counts = measure(surface, changes);
+            println!("{name}, {camera}: {counts:?}");
+            assert!(counts.hits > 20, "{name}, {camera}: {counts:?}");
+            let wrong = counts.missed + counts.invented + counts.displaced + counts.tilted;
+            assert!(
+                wrong == 0 && counts.off <= 3,
+                "{name}, {camera}: {counts:?}"
+            );
+        }
+    }
 }
