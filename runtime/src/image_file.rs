@@ -63,22 +63,45 @@ impl Format {
     }
 }
 
+/// Whether a PNG holds alpha. An OpenEXR file always does; its colours are premultiplied, as its specification says, those
+/// of a PNG are not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Alpha {
+    /// The picture is opaque: alpha is left out.
+    LeftOut,
+    /// Something may shine through.
+    Kept,
+}
+
+impl Alpha {
+    /// Channels of a pixel of a PNG.
+    fn channels(self) -> usize {
+        match self {
+            Self::LeftOut => 3,
+            Self::Kept => 4,
+        }
+    }
+}
+
 /// Writes a picture at `path` with the rows that `draw` gives; without all of them there will be no file.
 ///
 /// # Errors
 /// Those of `draw`, [`Error::Io`], and [`Error::Invalid`] for more than [`MAX_LINEAR_PIXELS`] in an OpenEXR file.
 pub fn write(
     path: &Path,
-    format: Format,
+    (format, alpha): (Format, Alpha),
     size: Size,
     metadata: &Metadata,
     draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let bytes = match format {
-        Format::Png8 => return write_png(path, size, metadata, draw),
-        Format::Png16 => {
+        Format::Png8 | Format::Png16 => {
+            let depth = match format {
+                Format::Png8 => Depth::Eight,
+                _ => Depth::Sixteen,
+            };
             let mut file = AtomicFile::create(path)?;
-            encode_png(&mut file, size, Depth::Sixteen, metadata, draw)?;
+            encode_png(&mut file, size, (depth, alpha), metadata, draw)?;
             file.commit()?;
             return Ok(());
         }
@@ -91,7 +114,7 @@ pub fn write(
     Ok(())
 }
 
-/// Writes a PNG in 8-bit sRGB at `path` with the rows that `draw` gives; without all of them there will be no file.
+/// Writes an opaque PNG in 8-bit sRGB at `path` with the rows that `draw` gives; without all of them there will be no file.
 ///
 /// # Errors
 /// Those of `draw`, and [`Error::Io`].
@@ -101,17 +124,14 @@ pub fn write_png(
     metadata: &Metadata,
     draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let mut file = AtomicFile::create(path)?;
-    encode_png(&mut file, size, Depth::Eight, metadata, draw)?;
-    file.commit()?;
-    Ok(())
+    write(path, (Format::Png8, Alpha::LeftOut), size, metadata, draw)
 }
 
 /// The same into any output, from rows of linear `f32` for a depth of 16 bits.
 fn encode_png(
     output: &mut dyn Write,
     size: Size,
-    depth: Depth,
+    kind: (Depth, Alpha),
     metadata: &Metadata,
     draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
 ) -> Result<(), Error> {
@@ -119,7 +139,7 @@ fn encode_png(
         output,
         failure: None,
     };
-    let drawn = encode(&mut output, size, depth, metadata, draw);
+    let drawn = encode(&mut output, size, kind, metadata, draw);
     match (drawn, output.failure) {
         // The encoder passes on the text of a failure alone.
         (Err(Error::Io(_)), Some(failure)) => Err(Error::Io(failure)),
@@ -130,12 +150,15 @@ fn encode_png(
 fn encode(
     output: &mut Watched,
     size: Size,
-    depth: Depth,
+    (depth, alpha): (Depth, Alpha),
     metadata: &Metadata,
     draw: impl FnOnce(&mut dyn RowSink) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let mut encoder = png::Encoder::new(output, size.width, size.height);
-    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_color(match alpha {
+        Alpha::LeftOut => png::ColorType::Rgb,
+        Alpha::Kept => png::ColorType::Rgba,
+    });
     encoder.set_depth(match depth {
         Depth::Eight => png::BitDepth::Eight,
         Depth::Sixteen | Depth::ThirtyTwo => png::BitDepth::Sixteen,
@@ -161,10 +184,12 @@ fn encode(
         match depth {
             Depth::Eight => draw(&mut PngRows {
                 stream: &mut stream,
-                rgb: line,
+                alpha,
+                line,
             })?,
             Depth::Sixteen | Depth::ThirtyTwo => draw(&mut Png16Rows {
                 stream: &mut stream,
+                alpha,
                 line,
             })?,
         }
@@ -215,22 +240,20 @@ pub(crate) fn io_error(error: png::EncodingError) -> Error {
     })
 }
 
-/// Rows on their way into the compressor. Pictures are opaque: alpha is left out.
+/// Rows on their way into the compressor.
 struct PngRows<W: Write> {
     stream: W,
-    rgb: Vec<u8>,
+    alpha: Alpha,
+    line: Vec<u8>,
 }
 
 impl<W: Write> RowSink for PngRows<W> {
     fn rows(&mut self, rgba: &[u8]) -> io::Result<()> {
-        self.rgb.clear();
-        self.rgb.extend(
-            rgba.as_chunks::<4>()
-                .0
-                .iter()
-                .flat_map(|&[r, g, b, _]| [r, g, b]),
-        );
-        self.stream.write_all(&self.rgb)
+        self.line.clear();
+        for pixel in rgba.as_chunks::<4>().0 {
+            self.line.extend(&pixel[..self.alpha.channels()]);
+        }
+        self.stream.write_all(&self.line)
     }
 }
 
@@ -268,7 +291,8 @@ mod tests {
             ("Formula", "√x\0 + π".into()),
         ]);
         let mut bytes = Vec::new();
-        encode_png(&mut bytes, SIZE, Depth::Eight, &metadata, draw).unwrap();
+        let kind = (Depth::Eight, Alpha::LeftOut);
+        encode_png(&mut bytes, SIZE, kind, &metadata, draw).unwrap();
         let mut reader = png::Decoder::new(io::Cursor::new(bytes))
             .read_info()
             .unwrap();
@@ -314,7 +338,8 @@ mod tests {
                 Ok(())
             }
         }
-        let failed = encode_png(&mut Closed, SIZE, Depth::Eight, &Metadata::default(), draw);
+        let kind = (Depth::Eight, Alpha::LeftOut);
+        let failed = encode_png(&mut Closed, SIZE, kind, &Metadata::default(), draw);
         assert!(
             matches!(failed, Err(Error::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe)
         );

@@ -26,7 +26,7 @@
 // | camera                   |         | where it is and how it sees |
 // | light_yaw, light_pitch   | degrees | of the light; yaw from the camera or from +x |
 // | light_strength, ambient  |         | of the sun, and of sky and ground |
-// | backdrop, background     |         | 0 ground and sky, 1 plain; colour of the horizon |
+// | backdrop, background     |         | 0 ground and sky, 1 plain, 2 transparent; colour of the horizon |
 //
 // Where f is undefined there is no surface; cut and walls are hatched. A constant has no surface, and one colour on the
 // cut. A sign change where f does not shrink towards the level (a pole, a jump) is no surface.
@@ -124,39 +124,6 @@ struct Family {
     count: u32,
 }
 
-struct Probe {
-    t: f32,
-    u: f32,
-    slope: f32,
-    valid: bool,
-}
-
-struct March {
-    t: f32,
-    state: u32,
-    hit: bool,
-    hit_level: i32,
-    hit_t: f32,
-    touching: bool,
-    near: Probe,
-    far: Probe,
-    later: Probe,
-    split: bool,
-    band: i32,
-    k: u32,
-    count: u32,
-    step: f32,
-    low: Probe,
-    high: Probe,
-    nearest: Probe,
-    low_weight: f32,
-    high_weight: f32,
-    width: f32,
-    before: f32,
-    rounds: u32,
-    level: i32,
-}
-
 struct Lamp {
     toward: vec3f,
     strength: f32,
@@ -202,23 +169,15 @@ fn plane_offset(n: vec3f, center: vec3f, half_size: vec3f, position: f32) -> f32
 fn swept_position(position: f32, sweep: f32, period: f32) -> f32 { return 0.0; }
 fn kept_part(ray: Ray, span: vec2f, n: vec3f, offset: f32) -> Kept { return Kept(); }
 fn contour_colour(value: f32, rate: f32, palette: u32, scale: f32, contours: Contours, ink: vec3f, pixel: vec2f) -> vec3f { return vec3f(); }
-fn stage_colour(ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec3f { return vec3f(); }
-fn march_over(extent: f32, count: u32) -> March { return March(); }
-fn march_on(m: March, jet: vec2f, family: Family) -> March { return March(); }
-fn march_strides(m: March, jet: vec2f, family: Family) -> bool { return false; }
-fn march_stride(before: March, jet: vec2f, family: Family) -> March { return March(); }
-fn march_is_done(m: March) -> bool { return false; }
 fn family_around(middle: f32, spacing: f32, count: u32) -> Family { return Family(); }
 fn highlighted_level(number: u32, count: u32) -> i32 { return 0; }
-fn shell_layer(level: i32, touching: bool, gradient: vec3f, direction: vec3f, shells: Shells) -> Layer { return Layer(); }
 fn shell_wall(value: f32, rate: f32, behind: bool, width: f32, shells: Shells, pixel: vec2f) -> Layer { return Layer(); }
 fn edge_layer(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32, behind: bool) -> Layer { return Layer(); }
+fn seen_shells(before: Seen, sight: Sight, part: vec2f, half_size: vec3f, steps: u32, shells: Shells, pixel: vec2f) -> Seen { return Seen(); }
+fn seen_over(seen: Seen, behind: vec4f) -> vec4f { return vec4f(); }
+fn stage_at(backdrop: u32, ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec4f { return vec4f(); }
 fn seen_nothing() -> Seen { return Seen(); }
 fn seen_behind(seen: Seen, layer: Layer) -> Seen { return Seen(); }
-
-// Layers of a ray that are composited at most, and what has to come through for more of them to be looked for.
-const LAYERS: u32 = 96u;
-const THINNEST: f32 = 0.002;
 
 fn color_scale() -> f32 {
     return select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
@@ -239,13 +198,6 @@ fn shells() -> Shells {
 fn lamp() -> Lamp {
     let toward = light_toward(settings.camera, settings.light_yaw, settings.light_pitch, settings.light_from);
     return Lamp(toward, settings.light_strength, settings.background, settings.ambient);
-}
-
-fn backdrop_colour(ray: Ray) -> vec3f {
-    if settings.backdrop == 1u {
-        return settings.background;
-    }
-    return stage_colour(ray, settings.center, settings.box, settings.background);
 }
 
 // The plane's normal, and its offset.
@@ -279,43 +231,23 @@ fn seen_cut(seen: Seen, jet: vec4f, t: f32, sight: Sight, n: vec3f, pixel: vec2f
     return seen_behind(seen_edges(seen, sight, t, n, true), Layer(colour, opacity));
 }
 
-// The layers of the part of a ray that is kept: wall or cut in front, levels, wall or cut behind.
-fn seen_in_part(before: Seen, sight: Sight, part: Kept, plane: vec4f, pixel: vec2f) -> Seen {
-    let d = sight.ray.direction;
-    let origin = sight.ray.origin + part.start * d;
-    let extent = part.end - part.start;
-    let shells = shells();
-    let diagonal = 2.0 * length(settings.box);
-    var march = march_over(extent, u32(ceil(extent / diagonal * f32(settings.steps))));
-    var seen = before;
-    for (var k = view.zero; k < LAYERS && seen.through > THINNEST; k++) {
-        march.hit = false;
-        while k > 0u && !march.hit && !march_is_done(march) {
-            var jet: vec2f;
-            loop {
-                jet = field_ray(origin, d, march.t);
-                if !march_strides(march, jet, shells.family) {
-                    break;
-                }
-                march = march_stride(march, jet, shells.family);
-            }
-            march = march_on(march, jet, shells.family);
-        }
-        let last = k > 0u && !march.hit;
-        let t = select(select(march.hit_t, extent, last), 0.0, k == 0u);
-        let jet = field_grad(origin + t * d);
-        if k > 0u && !last {
-            seen = seen_behind(seen, shell_layer(march.hit_level, march.touching, jet.xyz, d, shells));
-        } else if (k == 0u && part.cut_first) || (last && part.cut_last) {
-            seen = seen_cut(seen, jet, part.start + t, sight, plane.xyz, pixel);
-        } else if part.start + t > 0.0 {
-            seen = seen_wall(seen, jet, part.start + t, last, sight, shells, pixel);
-        }
-        if last {
-            break;
-        }
+// What is left of the way of a ray through the box.
+fn kept_of(ray: Ray) -> Kept {
+    let span = box_span(ray.origin, ray.direction, settings.center, settings.box);
+    let plane = cut_plane();
+    return kept_part(ray, vec2f(max(span.x, 0.0), span.y), plane.xyz, plane.w);
+}
+
+// Wall or cut at an end of that. There is no wall where the ray begins in the box.
+fn seen_bound(seen: Seen, jet: vec4f, t: f32, last: bool, sight: Sight, shells: Shells, pixel: vec2f) -> Seen {
+    let part = kept_of(sight.ray);
+    if select(part.cut_first, part.cut_last, last) {
+        return seen_cut(seen, jet, t, sight, cut_plane().xyz, pixel);
     }
-    return seen;
+    if t <= 0.0 {
+        return seen;
+    }
+    return seen_wall(seen, jet, t, last, sight, shells, pixel);
 }
 
 fn shade(pixel: vec2f) -> vec4f {
@@ -328,14 +260,12 @@ fn shade(pixel: vec2f) -> vec4f {
             let n = box_normal(ray.origin + span.x * ray.direction, settings.center, settings.box);
             seen = seen_edges(seen, sight, span.x, n, false);
         }
-        let plane = cut_plane();
-        let part = kept_part(ray, vec2f(max(span.x, 0.0), span.y), plane.xyz, plane.w);
+        let part = kept_of(ray);
         if part.end > part.start {
-            seen = seen_in_part(seen, sight, part, plane, pixel);
+            seen = seen_shells(seen, sight, vec2f(part.start, part.end), settings.box, settings.steps, shells(), pixel);
         }
         let n = box_normal(ray.origin + span.y * ray.direction, settings.center, settings.box);
         seen = seen_edges(seen, sight, span.y, n, true);
     }
-    let colour = seen.light + seen.through * backdrop_colour(ray);
-    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+    return seen_over(seen, stage_at(settings.backdrop, ray, settings.center, settings.box, settings.background));
 }

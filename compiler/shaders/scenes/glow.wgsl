@@ -14,7 +14,7 @@
 // | jitter                 |         | how far samples begin at another place in each pixel |
 // | vignette, grain        |         | darkening of the corners; noise that is added |
 // | camera                 |         | where it is and how it sees |
-// | background             | linear  | behind the light |
+// | backdrop, background   | linear  | behind the light: 0 one colour, 1 nothing |
 //
 // Undefined and infinite values emit nothing, and a constant nothing or, where it is a distance, an even haze. By its
 // gradient a pole cannot be told from a zero, and glows too.
@@ -61,6 +61,7 @@ struct Settings {
     grain: f32,
     camera: Camera,
     background: vec3f,
+    backdrop: u32,
 }
 
 struct Ray {
@@ -171,6 +172,11 @@ fn shade(pixel: vec2f) -> vec4f {
     let place = (pixel - 0.5 * view.size) / max(min(view.size.x, view.size.y), 1.0);
     let corner = max(1.0 - settings.vignette * dot(place, place), 0.0);
     let noise = settings.grain * (pixel_noise(pixel, u32(abs(view.time) * 24.0) & 0xffffu) - 0.5);
-    let colour = filmic(light * corner) + settings.background * corner + vec3f(noise);
-    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+    let shown = filmic(light * corner) + vec3f(noise);
+    if settings.backdrop == 1u {
+        // light hides nothing, but what is brighter than its alpha cannot be told in most files
+        let colour = clamp(shown, vec3f(0.0), vec3f(1.0));
+        return vec4f(colour, max(colour.r, max(colour.g, colour.b)));
+    }
+    return vec4f(clamp(shown + settings.background * corner, vec3f(0.0), vec3f(1.0)), 1.0);
 }

@@ -16,7 +16,7 @@
 // | camera                   |         | where it is and how it sees |
 // | light_yaw, light_pitch   | degrees | of the light; yaw from the camera or from +x |
 // | light_strength, ambient  |         | of the sun, and of sky and ground |
-// | backdrop, background     |         | 0 ground and sky, 1 plain; colour of the horizon |
+// | backdrop, background     |         | 0 ground and sky, 1 plain, 2 transparent; colour of the horizon |
 //
 // Where f is undefined there is no surface, and the walls are hatched. A constant has no surface. A sign change where f
 // does not shrink towards the level (a pole, a jump) is none either.
@@ -88,39 +88,6 @@ struct Family {
     count: u32,
 }
 
-struct Probe {
-    t: f32,
-    u: f32,
-    slope: f32,
-    valid: bool,
-}
-
-struct March {
-    t: f32,
-    state: u32,
-    hit: bool,
-    hit_level: i32,
-    hit_t: f32,
-    touching: bool,
-    near: Probe,
-    far: Probe,
-    later: Probe,
-    split: bool,
-    band: i32,
-    k: u32,
-    count: u32,
-    step: f32,
-    low: Probe,
-    high: Probe,
-    nearest: Probe,
-    low_weight: f32,
-    high_weight: f32,
-    width: f32,
-    before: f32,
-    rounds: u32,
-    level: i32,
-}
-
 struct Lamp {
     toward: vec3f,
     strength: f32,
@@ -161,23 +128,15 @@ fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Si
 fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 { return 0.0; }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
-fn stage_colour(ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec3f { return vec3f(); }
-fn march_over(extent: f32, count: u32) -> March { return March(); }
-fn march_on(m: March, jet: vec2f, family: Family) -> March { return March(); }
-fn march_strides(m: March, jet: vec2f, family: Family) -> bool { return false; }
-fn march_stride(before: March, jet: vec2f, family: Family) -> March { return March(); }
-fn march_is_done(m: March) -> bool { return false; }
 fn family_around(middle: f32, spacing: f32, count: u32) -> Family { return Family(); }
 fn highlighted_level(number: u32, count: u32) -> i32 { return 0; }
-fn shell_layer(level: i32, touching: bool, gradient: vec3f, direction: vec3f, shells: Shells) -> Layer { return Layer(); }
 fn shell_wall(value: f32, rate: f32, behind: bool, width: f32, shells: Shells, pixel: vec2f) -> Layer { return Layer(); }
 fn edge_layer(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32, behind: bool) -> Layer { return Layer(); }
+fn seen_shells(before: Seen, sight: Sight, part: vec2f, half_size: vec3f, steps: u32, shells: Shells, pixel: vec2f) -> Seen { return Seen(); }
+fn seen_over(seen: Seen, behind: vec4f) -> vec4f { return vec4f(); }
+fn stage_at(backdrop: u32, ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec4f { return vec4f(); }
 fn seen_nothing() -> Seen { return Seen(); }
 fn seen_behind(seen: Seen, layer: Layer) -> Seen { return Seen(); }
-
-// Layers of a ray that are composited at most, and what has to come through for more of them to be looked for.
-const LAYERS: u32 = 96u;
-const THINNEST: f32 = 0.002;
 
 fn shells() -> Shells {
     let scale = select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
@@ -197,67 +156,25 @@ fn lamp() -> Lamp {
     return Lamp(toward, settings.light_strength, settings.background, settings.ambient);
 }
 
-fn backdrop_colour(ray: Ray) -> vec3f {
-    if settings.backdrop == 1u {
-        return settings.background;
+// A wall at distance t, behind what has been seen: its edges, lines and tint. There is none where the ray begins in the box.
+fn seen_bound(seen: Seen, jet: vec4f, t: f32, last: bool, sight: Sight, shells: Shells, pixel: vec2f) -> Seen {
+    if t <= 0.0 {
+        return seen;
     }
-    return stage_colour(ray, settings.center, settings.box, settings.background);
-}
-
-// A wall at distance t, behind what has been seen: its lines and tint, and the edges on it.
-fn seen_wall(seen: Seen, jet: vec4f, t: f32, behind: bool, sight: Sight, shells: Shells, pixel: vec2f) -> Seen {
     let n = box_normal(sight.ray.origin + t * sight.ray.direction, settings.center, settings.box);
     let rate = screen_rate(sight, t, n, jet.xyz);
-    let wall = shell_wall(jet.w, rate, behind, settings.isoline_width, shells, pixel);
-    let edges = edge_layer(sight, t, n, settings.center, settings.box, settings.edge_width, behind);
+    let wall = shell_wall(jet.w, rate, last, settings.isoline_width, shells, pixel);
+    let edges = edge_layer(sight, t, n, settings.center, settings.box, settings.edge_width, last);
     return seen_behind(seen_behind(seen, edges), Layer(wall.colour, wall.opacity * settings.wall_opacity));
-}
-
-// The layers between both walls that a ray meets, and the walls.
-fn seen_in_box(sight: Sight, span: vec2f, pixel: vec2f) -> Seen {
-    let d = sight.ray.direction;
-    let start = max(span.x, 0.0);
-    let origin = sight.ray.origin + start * d;
-    let extent = span.y - start;
-    let shells = shells();
-    let diagonal = 2.0 * length(settings.box);
-    var march = march_over(extent, u32(ceil(extent / diagonal * f32(settings.steps))));
-    var seen = seen_nothing();
-    // First the wall in front, then what the march meets, and at its end the wall behind.
-    for (var k = view.zero; k < LAYERS && seen.through > THINNEST; k++) {
-        march.hit = false;
-        while k > 0u && !march.hit && !march_is_done(march) {
-            var jet: vec2f;
-            loop {
-                jet = field_ray(origin, d, march.t);
-                if !march_strides(march, jet, shells.family) {
-                    break;
-                }
-                march = march_stride(march, jet, shells.family);
-            }
-            march = march_on(march, jet, shells.family);
-        }
-        let wall = k == 0u || !march.hit;
-        let t = select(march.hit_t, select(extent, 0.0, k == 0u), wall);
-        let jet = field_grad(origin + t * d);
-        if !wall {
-            seen = seen_behind(seen, shell_layer(march.hit_level, march.touching, jet.xyz, d, shells));
-        } else if k > 0u {
-            return seen_wall(seen, jet, span.y, true, sight, shells, pixel);
-        } else if span.x > 0.0 {
-            seen = seen_wall(seen, jet, span.x, false, sight, shells, pixel);
-        }
-    }
-    return seen;
 }
 
 fn shade(pixel: vec2f) -> vec4f {
     let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
+    let start = max(span.x, 0.0);
     var seen = seen_nothing();
-    if span.y > max(span.x, 0.0) {
-        seen = seen_in_box(sight, span, pixel);
+    if span.y > start {
+        seen = seen_shells(seen, sight, vec2f(start, span.y), settings.box, settings.steps, shells(), pixel);
     }
-    let colour = seen.light + seen.through * backdrop_colour(sight.ray);
-    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+    return seen_over(seen, stage_at(settings.backdrop, sight.ray, settings.center, settings.box, settings.background));
 }

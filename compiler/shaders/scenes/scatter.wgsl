@@ -12,7 +12,7 @@
 // | steps, light_steps     |          | stretches along the diagonal of the box, of rays and of the ways of the light |
 // | camera                 |          | where it is and how it sees |
 // | light_yaw, light_pitch | degrees  | of the light; yaw from the camera or from +x |
-// | background, backdrop   | linear   | behind the box; 0 sky, 1 one colour |
+// | background, backdrop   | linear   | behind the box; 0 sky, 1 one colour, 2 nothing |
 // | edge_width             | pixels   | of the box's edges |
 //
 // Where f is negative or undefined the box is empty; larger values than the densest, infinite ones too, are as that.
@@ -76,6 +76,11 @@ struct Sight {
     parallel: bool,
 }
 
+struct Layer {
+    colour: vec3f,
+    opacity: f32,
+}
+
 // A way through the box, cut into stretches.
 struct Way {
     ray: Ray,
@@ -109,8 +114,7 @@ fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { re
 fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn sky_at(direction: vec3f, background: vec3f) -> vec3f { return vec3f(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
-fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
-fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 { return 0.0; }
+fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f { return vec4f(); }
 fn absorbed_part(x: f32) -> f32 { return 0.0; }
 fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
 fn sample_phase(pixel: vec2f) -> f32 { return 0.0; }
@@ -253,25 +257,35 @@ fn scattered_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Scattered {
     return seen;
 }
 
-// The edges at the face of the box at distance t, on a colour.
-fn edged(colour: vec3f, sight: Sight, t: f32, strength: f32) -> vec3f {
-    let n = box_normal(sight.ray.origin + t * sight.ray.direction, settings.center, settings.box);
-    return mix(colour, EDGE, strength * box_edges(sight, t, n, settings.center, settings.box, settings.edge_width));
+fn edged(under: vec4f, sight: Sight, t: f32, strength: f32) -> vec4f {
+    return with_edges(under, sight, t, settings.center, settings.box, settings.edge_width, Layer(EDGE, strength));
+}
+
+// What is behind the box: the sky, one colour, or nothing.
+fn backdrop_at(direction: vec3f) -> vec4f {
+    let colour = select(settings.background, sky_at(direction, settings.background), settings.backdrop == 0u);
+    return select(vec4f(colour, 1.0), vec4f(), settings.backdrop == 2u);
+}
+
+// The cloud in front of a picture. Of one that comes through in other parts of red, green and blue the alpha is of the mean.
+fn cloud_over(seen: Scattered, behind: vec4f) -> vec4f {
+    let shown = displayed(seen.light, settings.exposure, settings.tone, settings.gamma);
+    let colour = clamp(shown + seen.through * behind.rgb, vec3f(0.0), vec3f(1.0));
+    let through = dot(seen.through, vec3f(1.0 / 3.0));
+    return vec4f(colour, 1.0 - through * (1.0 - behind.a));
 }
 
 fn shade(pixel: vec2f) -> vec4f {
     let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
-    let sky = sky_at(sight.ray.direction, settings.background);
-    let background = select(settings.background, sky, settings.backdrop == 0u);
+    let behind = backdrop_at(sight.ray.direction);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     if span.y <= max(span.x, 0.0) {
-        return vec4f(background, 1.0);
+        return behind;
     }
     let seen = scattered_in_box(sight.ray, span, pixel);
-    let behind = edged(background, sight, span.y, 0.4);
-    var colour = displayed(seen.light, settings.exposure, settings.tone, settings.gamma) + seen.through * behind;
+    let colour = cloud_over(seen, edged(behind, sight, span.y, 0.4));
     if span.x > 0.0 {
-        colour = edged(colour, sight, span.x, 0.55);
+        return edged(colour, sight, span.x, 0.55);
     }
-    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+    return colour;
 }

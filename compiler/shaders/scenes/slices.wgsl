@@ -19,7 +19,7 @@
 // | axis_width            | pixels  | of the lines where a coordinate is 0 |
 // | edge_width            | pixels  | of the box's edges |
 // | camera                |         | where it is and how it sees |
-// | background            | linear  | colour of the horizon |
+// | backdrop, background  | linear  | 0 ground and sky, 1 plain, 2 transparent; colour of the horizon |
 //
 // Undefined values (NaN) are a grey hatch, infinite ones the end colours with a hatch of the other slope. A constant
 // has one colour and no lines.
@@ -71,6 +71,7 @@ struct Settings {
     edge_width: f32,
     camera: Camera,
     background: vec3f,
+    backdrop: u32,
 }
 
 struct Ray {
@@ -83,6 +84,11 @@ struct Sight {
     forward: vec3f,
     slope: f32,
     parallel: bool,
+}
+
+struct Layer {
+    colour: vec3f,
+    opacity: f32,
 }
 
 struct Contours {
@@ -107,13 +113,12 @@ fn plane_distance(ray: Ray, n: vec3f, offset: f32) -> f32 { return 0.0; }
 fn plane_offset(n: vec3f, center: vec3f, half_size: vec3f, position: f32) -> f32 { return 0.0; }
 fn swept_position(position: f32, sweep: f32, period: f32) -> f32 { return 0.0; }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
-fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
-fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 { return 0.0; }
+fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f { return vec4f(); }
 fn coordinate_lines(sight: Sight, t: f32, n: vec3f, spacing: f32, width: f32) -> f32 { return 0.0; }
 fn axis_lines(sight: Sight, t: f32, n: vec3f, width: f32) -> vec4f { return vec4f(); }
 fn unit_axis(k: u32) -> vec3f { return vec3f(); }
 fn round_spacing(x: f32) -> f32 { return 0.0; }
-fn stage_colour(ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec3f { return vec3f(); }
+fn stage_at(backdrop: u32, ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec4f { return vec4f(); }
 fn contour_colour(value: f32, rate: f32, palette: u32, scale: f32, contours: Contours, ink: vec3f, pixel: vec2f) -> vec3f { return vec3f(); }
 
 const PAPER: vec3f = vec3f(0.86, 0.86, 0.85);
@@ -193,22 +198,20 @@ fn gridded(colour: vec3f, t: f32, n: vec3f, sight: Sight) -> vec3f {
     return mix(lines, axes.rgb, 0.85 * axes.a);
 }
 
-// The edges at the face of the box at distance t, on a colour.
-fn edged(colour: vec3f, t: f32, strength: f32, sight: Sight) -> vec3f {
-    let n = box_normal(sight.ray.origin + t * sight.ray.direction, settings.center, settings.box);
-    return mix(colour, EDGE, strength * box_edges(sight, t, n, settings.center, settings.box, settings.edge_width));
+fn edged(under: vec4f, t: f32, strength: f32, sight: Sight) -> vec4f {
+    return with_edges(under, sight, t, settings.center, settings.box, settings.edge_width, Layer(EDGE, strength));
 }
 
 fn shade(pixel: vec2f) -> vec4f {
     let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
-    var colour = stage_colour(sight.ray, settings.center, settings.box, settings.background);
+    var colour = stage_at(settings.backdrop, sight.ray, settings.center, settings.box, settings.background);
     if span.y <= max(span.x, 0.0) {
-        return vec4f(colour, 1.0);
+        return colour;
     }
     let slice = nearest_slice(sight, span);
     if slice.met {
-        colour = slice_colour(slice, sight, pixel);
+        colour = vec4f(slice_colour(slice, sight, pixel), 1.0);
     }
     if !slice.met || slice.t >= span.y * (1.0 - 1e-5) {
         colour = edged(colour, span.y, 0.5, sight);
@@ -216,5 +219,5 @@ fn shade(pixel: vec2f) -> vec4f {
     if span.x > 0.0 {
         colour = edged(colour, span.x, 0.8, sight);
     }
-    return vec4f(colour, 1.0);
+    return colour;
 }

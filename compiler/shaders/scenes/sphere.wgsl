@@ -41,6 +41,7 @@ struct Settings {
     light_pitch: f32,
     shine: f32,
     background: vec3f,
+    backdrop: u32,
     key: f32,
 }
 
@@ -75,6 +76,11 @@ struct PhaseStyle {
     phase_steps: u32,
 }
 
+struct Layer {
+    colour: vec3f,
+    opacity: f32,
+}
+
 struct Key {
     place: vec2f,
     step: vec2f,
@@ -97,9 +103,10 @@ fn wrap_diffuse(n: vec3f, l: vec3f, wrap: f32) -> f32 { return 0.0; }
 fn blinn_specular(n: vec3f, l: vec3f, v: vec3f, exponent: f32) -> f32 { return 0.0; }
 fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key { return Key(); }
 fn key_jet(key: Key, reach: f32) -> Jet { return Jet(); }
-fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
+fn layer_on(under: vec4f, layer: Layer) -> vec4f { return vec4f(); }
 
 const DEGREE: f32 = 0.017453292519943295;
+const KEY_BORDER: vec3f = vec3f(0.01);
 
 // A point of the sphere, and how it moves with the picture's point: per world unit to the right and up.
 struct Place {
@@ -267,9 +274,11 @@ fn lit(colour: vec3f, normal: vec3f) -> vec3f {
     return mix(colour, diffuse * rim + vec3f(shine), settings.light);
 }
 
-fn backdrop(pixel: vec2f) -> vec3f {
+// Behind the sphere: one colour, darker in the corners, or nothing.
+fn backdrop(pixel: vec2f) -> vec4f {
     let from_center = (pixel - 0.5 * view.size) / max(view.size.x, view.size.y);
-    return settings.background * (1.0 - 0.55 * dot(from_center, from_center));
+    let colour = settings.background * (1.0 - 0.55 * dot(from_center, from_center));
+    return select(vec4f(colour, 1.0), vec4f(), settings.backdrop == 1u);
 }
 
 fn shade(pixel: vec2f) -> vec4f {
@@ -282,12 +291,13 @@ fn shade(pixel: vec2f) -> vec4f {
     if key.inside {
         jet = key_jet(key, 2.0);
     }
-    var colour = colour_of(jet, pixel);
+    let colour = colour_of(jet, pixel);
+    var picture = vec4f(colour, 1.0);
     if !key.inside {
-        colour = mix(colour, settings.ink, settings.graticule_opacity * graticule_coverage(place));
+        let lined = mix(colour, settings.ink, settings.graticule_opacity * graticule_coverage(place));
         let normal = vec3f(inside, sqrt(max(1.0 - dot(inside, inside), 0.0)));
         let covered = clamp(0.5 + (1.0 - radius) / (view.pixel * sample_window()), 0.0, 1.0);
-        colour = mix(backdrop(pixel), lit(colour, normal), covered);
+        picture = layer_on(backdrop(pixel), Layer(lit(lined, normal), covered));
     }
-    return vec4f(with_key_border(colour, key), 1.0);
+    return layer_on(picture, Layer(KEY_BORDER, key.border));
 }

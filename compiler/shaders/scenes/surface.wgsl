@@ -15,6 +15,7 @@
 // | outside         | vec3f | 0.66 0.23 0.085   | 0..1      | linear  | colour of the side where f > level |
 // | inside          | vec3f | 0.06 0.22 0.45    | 0..1      | linear  | colour of the side where f < level |
 // | background      | vec3f | 0.80 0.82 0.85    | 0..1      | linear  | colour of the horizon |
+// | backdrop        | u32   | 0                 | 0..2      |         | 0 ground and sky, 1 one colour, 2 nothing |
 // | isoline_spacing | f32   | 0.5               | 0..       | value   | between the lines on the walls; 0: only the surface's |
 // | isoline_width   | f32   | 1.1               | 0..20     | pixels  | of the lines on the walls |
 // | edge_width      | f32   | 1.4               | 0..20     | pixels  | of the box's edges; 0: none |
@@ -63,6 +64,7 @@ struct Settings {
     outside: vec3f,
     inside: vec3f,
     background: vec3f,
+    backdrop: u32,
     isoline_spacing: f32,
     isoline_width: f32,
     edge_width: f32,
@@ -120,6 +122,7 @@ fn lit_colour(colour: vec3f, n: vec3f, v: vec3f, open: f32, lamp: Lamp) -> vec3f
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
 fn layer_over(front: Layer, back: Layer) -> Layer { return Layer(); }
+fn layer_on(under: vec4f, layer: Layer) -> vec4f { return vec4f(); }
 fn edge_layer(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32, behind: bool) -> Layer { return Layer(); }
 fn sky_at(direction: vec3f, background: vec3f) -> vec3f { return vec3f(); }
 fn ground_hit(ray: Ray, center: vec3f, half_size: vec3f) -> f32 { return 0.0; }
@@ -625,7 +628,7 @@ fn family_coverage(value: f32, rate: f32, window: f32) -> f32 {
 }
 
 // The faces of the box that the ray meets, over what lies behind them. The far one is hidden by the surface.
-fn over_box(under: vec3f, sight: Sight, span: vec2f, hidden: bool, pixel: vec2f) -> vec3f {
+fn over_box(under: vec4f, sight: Sight, span: vec2f, hidden: bool, pixel: vec2f) -> vec4f {
     var colour = under;
     for (var k = view.zero; k < 2u; k++) {
         let behind = k == 0u;
@@ -638,7 +641,7 @@ fn over_box(under: vec3f, sight: Sight, span: vec2f, hidden: bool, pixel: vec2f)
 }
 
 // A face of the box, over what lies behind it.
-fn over_wall(under: vec3f, face: Face, sight: Sight, pixel: vec2f, behind: bool) -> vec3f {
+fn over_wall(under: vec4f, face: Face, sight: Sight, pixel: vec2f, behind: bool) -> vec4f {
     var trace: Trace;
     var undefined = false;
     var crossed = false;
@@ -660,8 +663,7 @@ fn over_wall(under: vec3f, face: Face, sight: Sight, pixel: vec2f, behind: bool)
     }
     let wall = wall_on(trace, undefined, crossed, pixel, behind);
     let edge = edge_layer(sight, face.t, face.n, settings.center, settings.box, settings.edge_width, behind);
-    let colour = mix(under, wall.colour, wall.opacity * settings.wall_opacity);
-    return mix(colour, edge.colour, edge.opacity);
+    return layer_on(layer_on(under, Layer(wall.colour, wall.opacity * settings.wall_opacity)), edge);
 }
 
 // ---- Ground and sky ------------------------------------------------------------------------------------------
@@ -697,13 +699,19 @@ fn lit_ground(p: vec3f, jet: vec4f, direction: vec3f, shadowed: bool) -> vec3f {
     return ground_colour(p, direction, light, settings.center, settings.box, settings.background);
 }
 
+// Behind all else: the sky, one colour, or nothing.
+fn sky_behind(direction: vec3f) -> vec4f {
+    let colour = select(settings.background, sky_at(direction, settings.background), settings.backdrop == 0u);
+    return select(vec4f(colour, 1.0), vec4f(), settings.backdrop == 2u);
+}
+
 // ---- The picture ---------------------------------------------------------------------------------------------
 
 fn shade(pixel: vec2f) -> vec4f {
     let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
     let ray = sight.ray;
     let span = box_span(ray.origin, ray.direction, settings.center, settings.box);
-    let ground = ground_hit(ray, settings.center, settings.box);
+    let ground = select(0.0, ground_hit(ray, settings.center, settings.box), settings.backdrop == 0u);
     let ground_point = ray.origin + ground * ray.direction;
     // The eye's path, and then, where it ends on the ground, the light's. Drivers copy a function to where it is
     // called; the loop makes that one place.
@@ -725,14 +733,12 @@ fn shade(pixel: vec2f) -> vec4f {
     }
     let base = select(nearest_in_box(ground_point), spot_point(seen, hit), hit.found);
     let light = look_at_base(base, ray.direction, hit, ground > 0.0);
-    var colour: vec3f;
+    var colour = sky_behind(ray.direction);
     if hit.found {
-        colour = surface_colour(light.spot, ray.direction, light.closed);
+        colour = vec4f(surface_colour(light.spot, ray.direction, light.closed), 1.0);
     } else if ground > 0.0 {
-        colour = lit_ground(ground_point, light.jet, ray.direction, shadowed);
-    } else {
-        colour = sky_at(ray.direction, settings.background);
+        colour = vec4f(lit_ground(ground_point, light.jet, ray.direction, shadowed), 1.0);
     }
     colour = over_box(colour, sight, span, hit.found, pixel);
-    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+    return vec4f(clamp(colour.rgb, vec3f(0.0), vec3f(1.0)), colour.a);
 }

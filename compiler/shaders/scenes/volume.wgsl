@@ -15,7 +15,8 @@
 // | steps                  |          | stretches along the diagonal of the box |
 // | camera                 |          | where it is and how it sees |
 // | light_yaw, light_pitch | degrees  | of the light; yaw from the camera or from +x |
-// | background, edge_width | linear   | behind the box; pixels, of its edges |
+// | backdrop, background   | linear   | behind the box: 0 one colour, 1 nothing |
+// | edge_width             | pixels   | of its edges |
 //
 // Where f is undefined the box is empty; infinite values are as dense as the largest. A constant is an even fog.
 
@@ -43,15 +44,13 @@ struct Camera {
     projection: u32,
 }
 
-struct Settings {
-    box: vec3f,
-    center: vec3f,
+struct Gas {
+    positive: vec3f,
     color_scale: f32,
+    negative: vec3f,
     power: f32,
     density: f32,
     signs: u32,
-    positive: vec3f,
-    negative: vec3f,
     core: f32,
     lighting: f32,
     exposure: f32,
@@ -59,11 +58,18 @@ struct Settings {
     gamma: f32,
     jitter: f32,
     steps: u32,
+}
+
+struct Settings {
+    box: vec3f,
+    center: vec3f,
+    gas: Gas,
     camera: Camera,
     light_yaw: f32,
     light_pitch: f32,
     light_from: u32,
     background: vec3f,
+    backdrop: u32,
     edge_width: f32,
 }
 
@@ -96,6 +102,17 @@ struct Matter {
     extinction: f32,
 }
 
+struct Layer {
+    colour: vec3f,
+    opacity: f32,
+}
+
+struct Stretches {
+    extent: f32,
+    count: u32,
+    phase: f32,
+}
+
 struct Seen {
     light: vec3f,
     through: f32,
@@ -111,54 +128,41 @@ fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
 fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
 fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
-fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
-fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 { return 0.0; }
 fn matter_of(jet: vec4f, medium: Medium) -> Matter { return Matter(); }
 fn seen_nothing() -> Seen { return Seen(); }
+fn medium_of(gas: Gas, half_size: vec3f, light: vec3f) -> Medium { return Medium(); }
+fn stretches_of(extent: f32, half_size: vec3f, steps: u32, jitter: f32, pixel: vec2f) -> Stretches { return Stretches(); }
+fn stretch_of(k: u32, stretches: Stretches) -> vec2f { return vec2f(); }
+fn gas_over(seen: Seen, behind: vec4f, gas: Gas) -> vec4f { return vec4f(); }
+fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f { return vec4f(); }
 fn seen_through(seen: Seen, matter: Matter, length: f32) -> Seen { return Seen(); }
-fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
-fn sample_phase(pixel: vec2f) -> f32 { return 0.0; }
-fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f { return vec3f(); }
 
 const EDGE: vec3f = vec3f(0.42, 0.45, 0.50);
 // What has to come through for more of a ray to be looked at.
 const THINNEST: f32 = 0.0005;
 
-fn color_scale() -> f32 {
-    return select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
-}
-
 fn medium() -> Medium {
-    return Medium(
-        color_scale(),
-        settings.power,
-        settings.density / min(settings.box.x, min(settings.box.y, settings.box.z)),
-        settings.signs,
-        settings.positive,
-        settings.negative,
-        settings.core,
-        settings.lighting,
-        light_toward(settings.camera, settings.light_yaw, settings.light_pitch, settings.light_from),
-    );
+    let light = light_toward(settings.camera, settings.light_yaw, settings.light_pitch, settings.light_from);
+    return medium_of(settings.gas, settings.box, light);
 }
 
-// The edges at the face of the box at distance t, on a colour.
-fn edged(colour: vec3f, sight: Sight, t: f32, strength: f32) -> vec3f {
-    let n = box_normal(sight.ray.origin + t * sight.ray.direction, settings.center, settings.box);
-    return mix(colour, EDGE, strength * box_edges(sight, t, n, settings.center, settings.box, settings.edge_width));
+// What is behind the box: one colour, or nothing.
+fn backdrop() -> vec4f {
+    return select(vec4f(settings.background, 1.0), vec4f(), settings.backdrop == 1u);
+}
+
+fn edged(under: vec4f, sight: Sight, t: f32, strength: f32) -> vec4f {
+    return with_edges(under, sight, t, settings.center, settings.box, settings.edge_width, Layer(EDGE, strength));
 }
 
 // Radiance of the medium on a ray in the box, and what comes through, by the midpoint rule in each stretch.
 fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
     let medium = medium();
     let start = max(span.x, 0.0);
-    let extent = span.y - start;
-    let diagonal = 2.0 * length(settings.box);
-    let count = max(u32(ceil(extent / diagonal * f32(settings.steps))), 1u);
-    let phase = mix(0.5, sample_phase(pixel), settings.jitter);
+    let stretches = stretches_of(span.y - start, settings.box, settings.gas.steps, settings.gas.jitter, pixel);
     var seen = seen_nothing();
-    for (var k = view.zero; k <= count && seen.through > THINNEST; k++) {
-        let stretch = stretch_at(k, count, phase, extent);
+    for (var k = view.zero; k <= stretches.count && seen.through > THINNEST; k++) {
+        let stretch = stretch_of(k, stretches);
         let jet = field_grad(ray.origin + (start + 0.5 * (stretch.x + stretch.y)) * ray.direction);
         seen = seen_through(seen, matter_of(jet, medium), stretch.y - stretch.x);
     }
@@ -169,13 +173,12 @@ fn shade(pixel: vec2f) -> vec4f {
     let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     if span.y <= max(span.x, 0.0) {
-        return vec4f(settings.background, 1.0);
+        return backdrop();
     }
     let seen = seen_in_box(sight.ray, span, pixel);
-    let behind = edged(settings.background, sight, span.y, 0.4);
-    var colour = displayed(seen.light, settings.exposure, settings.tone, settings.gamma) + seen.through * behind;
+    let colour = gas_over(seen, edged(backdrop(), sight, span.y, 0.4), settings.gas);
     if span.x > 0.0 {
-        colour = edged(colour, sight, span.x, 0.55);
+        return edged(colour, sight, span.x, 0.55);
     }
-    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+    return colour;
 }

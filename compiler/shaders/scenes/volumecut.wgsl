@@ -22,7 +22,8 @@
 // | cut_opacity            |          | of the colours on the cut |
 // | camera                 |          | where it is and how it sees |
 // | light_yaw, light_pitch | degrees  | of the light; yaw from the camera or from +x |
-// | background, edge_width | linear   | behind the box; pixels, of its edges |
+// | backdrop, background   | linear   | behind the box: 0 one colour, 1 nothing |
+// | edge_width             | pixels   | of its edges |
 //
 // Where f is undefined the box is empty; infinite values are as dense as the largest. A constant is an even fog.
 
@@ -50,6 +51,22 @@ struct Camera {
     projection: u32,
 }
 
+struct Gas {
+    positive: vec3f,
+    color_scale: f32,
+    negative: vec3f,
+    power: f32,
+    density: f32,
+    signs: u32,
+    core: f32,
+    lighting: f32,
+    exposure: f32,
+    tone: u32,
+    gamma: f32,
+    jitter: f32,
+    steps: u32,
+}
+
 struct Settings {
     box: vec3f,
     center: vec3f,
@@ -58,19 +75,7 @@ struct Settings {
     ink: vec3f,
     sweep: f32,
     period: f32,
-    color_scale: f32,
-    power: f32,
-    density: f32,
-    signs: u32,
-    positive: vec3f,
-    negative: vec3f,
-    core: f32,
-    lighting: f32,
-    exposure: f32,
-    tone: u32,
-    gamma: f32,
-    jitter: f32,
-    steps: u32,
+    gas: Gas,
     contour_spacing: f32,
     line_width: f32,
     zero_width: f32,
@@ -81,6 +86,7 @@ struct Settings {
     light_pitch: f32,
     light_from: u32,
     background: vec3f,
+    backdrop: u32,
     edge_width: f32,
 }
 
@@ -111,6 +117,12 @@ struct Medium {
 struct Matter {
     colour: vec3f,
     extinction: f32,
+}
+
+struct Stretches {
+    extent: f32,
+    count: u32,
+    phase: f32,
 }
 
 struct Seen {
@@ -148,14 +160,15 @@ fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
 fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
 fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
-fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
 fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 { return 0.0; }
 fn matter_of(jet: vec4f, medium: Medium) -> Matter { return Matter(); }
 fn seen_nothing() -> Seen { return Seen(); }
+fn medium_of(gas: Gas, half_size: vec3f, light: vec3f) -> Medium { return Medium(); }
+fn stretches_of(extent: f32, half_size: vec3f, steps: u32, jitter: f32, pixel: vec2f) -> Stretches { return Stretches(); }
+fn stretch_of(k: u32, stretches: Stretches) -> vec2f { return vec2f(); }
+fn gas_over(seen: Seen, behind: vec4f, gas: Gas) -> vec4f { return vec4f(); }
+fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f { return vec4f(); }
 fn seen_through(seen: Seen, matter: Matter, length: f32) -> Seen { return Seen(); }
-fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
-fn sample_phase(pixel: vec2f) -> f32 { return 0.0; }
-fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f { return vec3f(); }
 fn is_nan(x: f32) -> bool { return false; }
 fn direction_or(v: vec3f, fallback: vec3f) -> vec3f { return vec3f(); }
 fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 { return 0.0; }
@@ -165,34 +178,29 @@ fn kept_part(ray: Ray, span: vec2f, n: vec3f, offset: f32) -> Kept { return Kept
 fn saturate_value(value: f32, scale: f32) -> f32 { return 0.0; }
 fn contour_opacity(value: f32, rate: f32, contours: Contours) -> f32 { return 0.0; }
 fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
+fn layer_on(under: vec4f, layer: Layer) -> vec4f { return vec4f(); }
 fn layer_over(front: Layer, back: Layer) -> Layer { return Layer(); }
 
 const EDGE: vec3f = vec3f(0.42, 0.45, 0.50);
 // What has to come through for more of a ray to be looked at.
 const THINNEST: f32 = 0.0005;
 
-fn color_scale() -> f32 {
-    return select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
+fn medium_scale() -> f32 {
+    return select(settings.gas.color_scale, 1.0, settings.gas.color_scale <= 1e-37);
 }
 
 fn medium() -> Medium {
-    return Medium(
-        color_scale(),
-        settings.power,
-        settings.density / min(settings.box.x, min(settings.box.y, settings.box.z)),
-        settings.signs,
-        settings.positive,
-        settings.negative,
-        settings.core,
-        settings.lighting,
-        light_toward(settings.camera, settings.light_yaw, settings.light_pitch, settings.light_from),
-    );
+    let light = light_toward(settings.camera, settings.light_yaw, settings.light_pitch, settings.light_from);
+    return medium_of(settings.gas, settings.box, light);
 }
 
-// The edges at the face of the box at distance t, on a colour.
-fn edged(colour: vec3f, sight: Sight, t: f32, strength: f32) -> vec3f {
-    let n = box_normal(sight.ray.origin + t * sight.ray.direction, settings.center, settings.box);
-    return mix(colour, EDGE, strength * box_edges(sight, t, n, settings.center, settings.box, settings.edge_width));
+// What is behind the box: one colour, or nothing.
+fn backdrop() -> vec4f {
+    return select(vec4f(settings.background, 1.0), vec4f(), settings.backdrop == 1u);
+}
+
+fn edged(under: vec4f, sight: Sight, t: f32, strength: f32) -> vec4f {
+    return with_edges(under, sight, t, settings.center, settings.box, settings.edge_width, Layer(EDGE, strength));
 }
 
 // The plane's normal, and its offset.
@@ -208,10 +216,10 @@ fn cut_layer(jet: vec4f, t: f32, sight: Sight, n: vec3f, pixel: vec2f) -> Layer 
     if is_nan(jet.w) {
         return layer_over(edges, Layer(0.35 * undefined_colour(pixel), settings.cut_opacity));
     }
-    let size = saturate_value(jet.w, color_scale());
-    let fill = abs(size) * select(settings.positive, settings.negative, size < 0.0);
+    let size = saturate_value(jet.w, medium_scale());
+    let fill = abs(size) * select(settings.gas.positive, settings.gas.negative, size < 0.0);
     let rate = screen_rate(sight, t, n, jet.xyz);
-    let spacing = max(select(0.25 * color_scale(), settings.contour_spacing, settings.contour_spacing > 0.0), 1e-37);
+    let spacing = max(select(0.25 * medium_scale(), settings.contour_spacing, settings.contour_spacing > 0.0), 1e-37);
     let contours = Contours(spacing, settings.line_width, settings.zero_width, settings.line_opacity, 0u);
     let lines = Layer(settings.ink, select(contour_opacity(jet.w, rate, contours), 0.0, rate < 0.0));
     return layer_over(edges, layer_over(lines, Layer(fill, settings.cut_opacity)));
@@ -226,15 +234,12 @@ struct Met {
 // The cut first, where there is one, then the medium by the midpoint rule in each stretch.
 fn met_in_part(sight: Sight, part: Kept, n: vec3f, pixel: vec2f) -> Met {
     let medium = medium();
-    let extent = part.end - part.start;
-    let diagonal = 2.0 * length(settings.box);
-    let count = max(u32(ceil(extent / diagonal * f32(settings.steps))), 1u);
-    let phase = mix(0.5, sample_phase(pixel), settings.jitter);
+    let stretches = stretches_of(part.end - part.start, settings.box, settings.gas.steps, settings.gas.jitter, pixel);
     let is_cut = part.cut_first || part.cut_last;
     let cut_t = select(part.end, part.start, part.cut_first);
     var met = Met(seen_nothing(), Layer(vec3f(), 0.0));
-    for (var k = view.zero + select(1u, 0u, is_cut); k <= count + 1u && met.seen.through > THINNEST; k++) {
-        let stretch = part.start + stretch_at(max(k, 1u) - 1u, count, phase, extent);
+    for (var k = view.zero + select(1u, 0u, is_cut); k <= stretches.count + 1u && met.seen.through > THINNEST; k++) {
+        let stretch = part.start + stretch_of(max(k, 1u) - 1u, stretches);
         let t = select(0.5 * (stretch.x + stretch.y), cut_t, k == 0u);
         let jet = field_grad(sight.ray.origin + t * sight.ray.direction);
         if k == 0u {
@@ -250,23 +255,23 @@ fn shade(pixel: vec2f) -> vec4f {
     let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     if span.y <= max(span.x, 0.0) {
-        return vec4f(settings.background, 1.0);
+        return backdrop();
     }
     let plane = cut_plane();
     let part = kept_part(sight.ray, vec2f(max(span.x, 0.0), span.y), plane.xyz, plane.w);
-    var colour = edged(settings.background, sight, span.y, 0.4);
+    var colour = edged(backdrop(), sight, span.y, 0.4);
     if part.end > part.start {
         let met = met_in_part(sight, part, plane.xyz, pixel);
         if part.cut_last {
-            colour = mix(colour, met.cut.colour, met.cut.opacity);
+            colour = layer_on(colour, met.cut);
         }
-        colour = displayed(met.seen.light, settings.exposure, settings.tone, settings.gamma) + met.seen.through * colour;
+        colour = gas_over(met.seen, colour, settings.gas);
         if part.cut_first {
-            colour = mix(colour, met.cut.colour, met.cut.opacity);
+            colour = layer_on(colour, met.cut);
         }
     }
     if span.x > 0.0 {
         colour = edged(colour, sight, span.x, 0.55);
     }
-    return vec4f(clamp(colour, vec3f(0.0), vec3f(1.0)), 1.0);
+    return vec4f(clamp(colour.rgb, vec3f(0.0), vec3f(1.0)), colour.a);
 }

@@ -16,7 +16,7 @@ struct View {
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(4) var<storage, read_write> image: array<u32>;
 
-// The scene's picture: linear rgb and alpha at a point of the whole image.
+// The scene's picture: linear rgb, premultiplied by alpha, and alpha at a point of the whole image.
 fn shade(pixel: vec2f) -> vec4f { return vec4f(); }
 // Shared: linear light to sRGB.
 fn srgb_encode(linear: vec3f) -> vec3f { return vec3f(); }
@@ -42,14 +42,15 @@ fn dither_threshold(pixel: vec2u) -> f32 {
     return (f32(lattice >> 16u) + 0.5) / 65536.0;
 }
 
-// The displayable colour of a pixel of this tile, to be rounded to 8 bits by the caller. A value that 8 bits
-// hold exactly stays as it is.
+// The displayable colour of a pixel of this tile, not premultiplied, to be rounded to 8 bits by the caller. A value that
+// 8 bits hold exactly stays as it is.
 fn encoded_pixel(local: vec2u) -> vec4f {
     let corner = vec2f(local) + view.tile;
     let mean = pixel_mean(corner);
-    let encoded = srgb_encode(clamp(mean.rgb, vec3f(0.0), vec3f(1.0)));
+    let alpha = clamp(mean.a, 0.0, 1.0);
+    let encoded = srgb_encode(clamp(mean.rgb / max(alpha, 1e-6), vec3f(0.0), vec3f(1.0)));
     let noise = (dither_threshold(vec2u(corner)) - 0.5) / 255.0;
-    return vec4f(clamp(encoded + noise, vec3f(0.0), vec3f(1.0)), clamp(mean.a, 0.0, 1.0));
+    return vec4f(clamp(encoded + noise, vec3f(0.0), vec3f(1.0)), alpha);
 }
 
 // One triangle that covers the target.
@@ -72,7 +73,7 @@ fn compute_main(@builtin(global_invocation_id) id: vec3u) {
     image[id.y * view.tile_size.x + id.x] = pack4x8unorm(encoded_pixel(id.xy));
 }
 
-// Four words a pixel: linear rgb and alpha as they are, beyond 1 too.
+// Four words a pixel: linear rgb, premultiplied, and alpha as they are, beyond 1 too.
 @compute @workgroup_size(8, 8)
 fn linear_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {

@@ -14,6 +14,51 @@ struct Medium {
     light: vec3f,      // towards the light
 }
 
+// The settings of a medium and of how it is seen.
+struct Gas {
+    positive: vec3f,
+    color_scale: f32,
+    negative: vec3f,
+    power: f32,
+    density: f32,     // optical depth of half the shortest side of the box where |f| = color_scale
+    signs: u32,
+    core: f32,
+    lighting: f32,
+    exposure: f32,    // of the radiance, and what follows: see `displayed`
+    tone: u32,
+    gamma: f32,
+    jitter: f32,      // how far stretches begin at another place in each sample
+    steps: u32,       // stretches along the diagonal of the box
+}
+
+// The medium of the settings in a box of this half size.
+fn medium_of(gas: Gas, half_size: vec3f, light: vec3f) -> Medium {
+    return Medium(
+        select(gas.color_scale, 1.0, gas.color_scale <= 1e-37),
+        gas.power,
+        gas.density / min(half_size.x, min(half_size.y, half_size.z)),
+        gas.signs,
+        gas.positive,
+        gas.negative,
+        gas.core,
+        gas.lighting,
+        light,
+    );
+}
+
+// A way that is cut into stretches: see `stretch_at`.
+struct Stretches {
+    extent: f32,
+    count: u32,
+    phase: f32,
+}
+
+// A way in a box whose diagonal has `steps` stretches.
+fn stretches_of(extent: f32, half_size: vec3f, steps: u32, jitter: f32, pixel: vec2f) -> Stretches {
+    let count = max(u32(ceil(extent / (2.0 * length(half_size)) * f32(steps))), 1u);
+    return Stretches(extent, count, mix(0.5, sample_phase(pixel), jitter));
+}
+
 // Of one point: emitted colour, and extinction per world unit.
 struct Matter {
     colour: vec3f,
@@ -62,6 +107,16 @@ fn seen_through(seen: Seen, matter: Matter, length: f32) -> Seen {
 fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f {
     let place = (f32(k) + vec2f(phase - 1.0, phase)) * (extent / f32(count));
     return clamp(place, vec2f(0.0), vec2f(extent));
+}
+
+fn stretch_of(k: u32, stretches: Stretches) -> vec2f {
+    return stretch_at(k, stretches.count, stretches.phase, stretches.extent);
+}
+
+// A medium in front of a picture.
+fn gas_over(seen: Seen, behind: vec4f, gas: Gas) -> vec4f {
+    let shown = displayed(seen.light, gas.exposure, gas.tone, gas.gamma);
+    return seen_over(Seen(shown, seen.through), behind);
 }
 
 // A number in (0, 1) for each sample of each pixel, evenly spread over neighbours: the rank-1 lattice of the plastic

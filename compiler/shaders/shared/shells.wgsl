@@ -1,5 +1,4 @@
-// Families of level sets in a box: the colour and opacity of each layer that a ray meets, to be composited from front to
-// back (T. Porter and T. Duff, "Compositing digital images", SIGGRAPH 1984).
+// Families of level sets in a box: the colour and opacity of each layer that a ray meets, in order.
 
 // How the layers look.
 struct Shells {
@@ -11,28 +10,7 @@ struct Shells {
     lamp: Lamp,
 }
 
-struct Layer {
-    colour: vec3f,
-    opacity: f32,
-}
-
-// What has been seen so far of a ray: light, and the part of what lies behind that comes through.
-struct Seen {
-    light: vec3f,
-    through: f32,
-}
-
 const SHELL_INK: vec3f = vec3f(0.012, 0.014, 0.02);
-
-fn seen_nothing() -> Seen {
-    return Seen(vec3f(), 1.0);
-}
-
-// A layer behind all that has been seen.
-fn seen_behind(seen: Seen, layer: Layer) -> Seen {
-    let opacity = clamp(layer.opacity, 0.0, 1.0);
-    return Seen(seen.light + seen.through * opacity * layer.colour, seen.through * (1.0 - opacity));
-}
 
 // A family of `count` levels around `middle`, and which of them is highlighted: the `number`-th from the lowest, for 0 the
 // one in the middle.
@@ -87,13 +65,53 @@ fn shell_wall(value: f32, rate: f32, behind: bool, width: f32, shells: Shells, p
     return layer_over(Layer(mix(0.35 * own, SHELL_INK, 0.2), ink), wall);
 }
 
-// One layer in front of another, as one.
-fn layer_over(front: Layer, back: Layer) -> Layer {
-    let opacity = front.opacity + back.opacity * (1.0 - front.opacity);
-    return Layer(mix(back.colour, front.colour, front.opacity / max(opacity, 1e-6)), opacity);
-}
-
 // The edges of the box at the point of one of its faces at distance t.
 fn edge_layer(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32, behind: bool) -> Layer {
     return Layer(SHELL_INK, select(0.8, 0.6, behind) * box_edges(sight, t, n, center, half_size, width));
+}
+
+// Layers of a ray that are composited at most, and what has to come through for more of them to be looked for.
+const MOST_LAYERS: u32 = 96u;
+const THINNEST_SHELL: f32 = 0.002;
+
+// The formula, as in the template.
+fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f { return vec2f(); }
+fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
+// The template's: what bounds the way of a ray at distance t, in front of the levels or, where `last`, behind them.
+fn seen_bound(seen: Seen, jet: vec4f, t: f32, last: bool, sight: Sight, shells: Shells, pixel: vec2f) -> Seen { return Seen(); }
+
+// The levels that a ray meets from `part.x` to `part.y`, and its bounds; `steps` are for the diagonal of the box.
+fn seen_shells(before: Seen, sight: Sight, part: vec2f, half_size: vec3f, steps: u32, shells: Shells, pixel: vec2f) -> Seen {
+    let d = sight.ray.direction;
+    let origin = sight.ray.origin + part.x * d;
+    let extent = part.y - part.x;
+    var march = march_over(extent, u32(ceil(extent / (2.0 * length(half_size)) * f32(steps))));
+    var seen = before;
+    // One place evaluates the gradient: first at the bound in front, then where a level is met, at last at the bound behind.
+    for (var k = view.zero; k < MOST_LAYERS && seen.through > THINNEST_SHELL; k++) {
+        march.hit = false;
+        while k > 0u && !march.hit && !march_is_done(march) {
+            var jet: vec2f;
+            loop {
+                jet = field_ray(origin, d, march.t);
+                if !march_strides(march, jet, shells.family) {
+                    break;
+                }
+                march = march_stride(march, jet, shells.family);
+            }
+            march = march_on(march, jet, shells.family);
+        }
+        let last = k > 0u && !march.hit;
+        let t = select(select(march.hit_t, extent, last), 0.0, k == 0u);
+        let jet = field_grad(origin + t * d);
+        if k > 0u && !last {
+            seen = seen_behind(seen, shell_layer(march.hit_level, march.touching, jet.xyz, d, shells));
+        } else {
+            seen = seen_bound(seen, jet, select(part.x, part.y, last), last, sight, shells, pixel);
+        }
+        if last {
+            break;
+        }
+    }
+    return seen;
 }

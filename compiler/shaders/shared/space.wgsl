@@ -170,3 +170,18 @@ fn stage_colour(ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) ->
     let aside = length(max(abs(p.xy - center.xy) - half_size.xy, vec2f(0.0)));
     return ground_colour(p, ray.direction, 1.0 - 0.22 * exp2(-2.5 * aside / reach), center, half_size, background);
 }
+
+// What is behind the box: 0 the ground and the sky, 1 one colour, 2 nothing.
+fn stage_at(backdrop: u32, ray: Ray, center: vec3f, half_size: vec3f, background: vec3f) -> vec4f {
+    switch backdrop {
+        case 0u: { return vec4f(stage_colour(ray, center, half_size, background), 1.0); }
+        case 1u: { return vec4f(background, 1.0); }
+        default: { return vec4f(); }
+    }
+}
+
+// The edges at the face of the box at distance t, on a picture; `ink` is how they look.
+fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f {
+    let n = box_normal(sight.ray.origin + t * sight.ray.direction, center, half_size);
+    return layer_on(under, Layer(ink.colour, ink.opacity * box_edges(sight, t, n, center, half_size, width)));
+}

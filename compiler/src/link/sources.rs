@@ -68,6 +68,7 @@ const SHARED: &str = concat!(
     include_str!("../../shaders/shared/box.wgsl"),
     include_str!("../../shaders/shared/lighting.wgsl"),
     include_str!("../../shaders/shared/values.wgsl"),
+    include_str!("../../shaders/shared/layers.wgsl"),
     include_str!("../../shaders/shared/space.wgsl"),
     include_str!("../../shaders/shared/march.wgsl"),
     include_str!("../../shaders/shared/shells.wgsl"),

@@ -83,6 +83,7 @@ pub const SCENE: Scene = Scene {
         camera::AIM,
         camera::UP,
         space::DARK,
+        space::PLAIN_BACKDROP,
         SettingSpec::precision(),
     ],
 };

@@ -77,9 +77,9 @@ pub const SCENE: Scene = Scene {
         ),
         SettingSpec::choice(
             "backdrop",
-            &["sky", "plain"],
+            &["sky", "plain", "transparent"],
             0.0,
-            "what is behind the box: the sky, darker above, or one colour",
+            "what is behind the box: the sky, darker above, one colour, or nothing",
         ),
         space::EDGE_WIDTH,
         SettingSpec::precision(),

@@ -75,6 +75,7 @@ pub const SCENE: Scene = Scene {
         camera::AIM,
         camera::UP,
         space::BACKGROUND,
+        space::BACKDROP,
         SettingSpec::precision(),
     ],
 };

@@ -128,9 +128,15 @@ pub(super) const LIGHTING: SettingSpec = SettingSpec::real(
 );
 pub(super) const BACKDROP: SettingSpec = SettingSpec::choice(
     "backdrop",
-    &["ground", "plain"],
+    &["ground", "plain", "transparent"],
     0.0,
-    "what is behind the box: ground and sky, or one colour",
+    "what is behind the box: ground and sky, one colour, or nothing",
+);
+pub(super) const PLAIN_BACKDROP: SettingSpec = SettingSpec::choice(
+    "backdrop",
+    &["plain", "transparent"],
+    0.0,
+    "what is behind: one colour, or nothing",
 );
 
 pub(super) const NORMAL: SettingSpec = SettingSpec::vec3(

@@ -1,6 +1,6 @@
 //! The settings of `sphere`.
 
-use super::{Scene, SettingSpec, Space};
+use super::{Scene, SettingSpec, Space, space};
 
 const ANY: f64 = f64::INFINITY;
 const POSITIVE: f64 = 1e-30;
@@ -118,6 +118,7 @@ pub const SCENE: Scene = Scene {
             [0.80, 0.82, 0.85],
             "colour behind the sphere, linear rgb",
         ),
+        space::PLAIN_BACKDROP,
         SettingSpec::key(
             "height of the colour key as a part of the picture's shorter side; f(z) = z up to 2 on both axes; 0: none",
         ),

@@ -49,6 +49,7 @@ pub const SCENE: Scene = Scene {
             "colour of the side where f < level, linear rgb",
         ),
         space::BACKGROUND,
+        space::BACKDROP,
         SettingSpec::real(
             "isoline_spacing",
             0.5,

@@ -57,6 +57,7 @@ pub const SCENE: Scene = Scene {
         camera::LIGHT_PITCH,
         camera::LIGHT_FROM,
         space::DARK,
+        space::PLAIN_BACKDROP,
         space::EDGE_WIDTH,
         SettingSpec::precision(),
     ],

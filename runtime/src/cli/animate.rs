@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::Args;
 use pullback_compiler::{Program, SceneModule, SettingValue};
 use pullback_runtime::animation::{self, Clip, Container, MAX_FRAMES, Sweep};
-use pullback_runtime::image_file::Format;
+use pullback_runtime::image_file::{Alpha, Format};
 use pullback_runtime::{Error, Frame, Metadata, RowSink, Size, View, image_file};
 
 use super::failure::Failure;
@@ -108,7 +108,7 @@ impl Animation {
         reel: &Reel,
         frames: u32,
         artist: &mut Artist,
-        output: (&Path, Format, &Metadata),
+        output: (&Path, (Format, Alpha), &Metadata),
         progress: &mut Progress,
     ) -> Result<(), Failure> {
         let (path, format, metadata) = output;

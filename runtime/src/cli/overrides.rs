@@ -23,6 +23,14 @@ enum Value {
 }
 
 impl Assignment {
+    /// A name gets a word.
+    pub(super) fn word(name: &str, word: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            value: Value::Word(word.to_owned()),
+        }
+    }
+
     /// A name gets one number.
     pub(super) fn number(name: &str, value: f64) -> Self {
         Self {

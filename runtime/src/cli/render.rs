@@ -10,7 +10,7 @@ use pullback_compiler::{Picture, SceneModule, SettingValue};
 use pullback_runtime::animation::Container;
 use pullback_runtime::auto::{self, Scenery};
 use pullback_runtime::executor::Painter;
-use pullback_runtime::image_file::Format;
+use pullback_runtime::image_file::{Alpha, Format};
 use pullback_runtime::render::MAX_SAMPLES;
 pub(super) use pullback_runtime::render::MAX_SIDE;
 use pullback_runtime::{
@@ -19,6 +19,7 @@ use pullback_runtime::{
 
 use super::animate::{Animation, Reel};
 use super::failure::Failure;
+use super::overrides::Assignment;
 use super::place::Computer;
 use super::progress::{Counted, Progress};
 use super::source::Source;
@@ -38,6 +39,9 @@ pub(super) struct RenderArguments {
     #[arg(long, default_value_t = 2, value_name = "N",
           value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     samples: u32,
+    /// Leave out what is behind the scene, so that the picture can lie on anything: `--set backdrop=transparent`
+    #[arg(long)]
+    transparent: bool,
     /// Bits of a number: 8 or 16 in a PNG, 16 or 32 in an .exr file, which holds linear light [default: 8, or 32]
     #[arg(long, value_name = "BITS")]
     depth: Option<u32>,
@@ -76,7 +80,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     let index = source.picture(arguments.which, console)?;
     let picture = &source.program.pictures()[index];
     let (params, mut settings) =
-        overrides::for_picture(&arguments.settings.set, &source.program, picture)?;
+        overrides::for_picture(&arguments.assignments(picture)?, &source.program, picture)?;
     let view = view(arguments.center, arguments.height, picture, &settings)?;
     fill_in_scale(
         &mut settings,
@@ -93,6 +97,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         .unwrap_or_else(|| PathBuf::from(format!("{}.png", source.stem)));
     let shown = name(&path);
     let (frames, format) = kind(arguments, &path)?;
+    let alpha = alpha(&settings, &path)?;
     let mut frame = Frame {
         view,
         params: &params,
@@ -143,7 +148,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
             settings: &settings,
             still: frame,
         };
-        let output = (path.as_path(), format, &metadata);
+        let output = (path.as_path(), (format, alpha), &metadata);
         arguments
             .animation
             .write(&reel, frames, &mut artist, output, &mut progress)?;
@@ -151,7 +156,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         console.note(&drawn(&shown, arguments.size, Some(frames), &progress));
         return Ok(());
     }
-    image_file::write(&path, format, frame.size, &metadata, |sink| {
+    image_file::write(&path, (format, alpha), frame.size, &metadata, |sink| {
         let mut sink = Counted {
             sink,
             progress: &mut progress,
@@ -162,6 +167,44 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     progress.finish();
     console.note(&drawn(&shown, frame.size, None, &progress));
     Ok(())
+}
+
+impl RenderArguments {
+    /// What is set, `--transparent` among it.
+    fn assignments(&self, picture: &Picture) -> Result<Vec<Assignment>, Failure> {
+        let mut all = self.settings.set.clone();
+        if self.transparent {
+            if picture.scene.setting("backdrop").is_none() {
+                return Err(Failure::usage_hint(
+                    format!(
+                        "scene `{}` fills the picture: nothing is behind it",
+                        picture.scene.name
+                    ),
+                    "leave --transparent out",
+                ));
+            }
+            all.push(Assignment::word("backdrop", TRANSPARENT));
+        }
+        Ok(all)
+    }
+}
+
+/// The word for a backdrop that is not there.
+const TRANSPARENT: &str = "transparent";
+
+/// Whether something may shine through the picture, which its file must be able to hold.
+fn alpha(settings: &[SettingValue], path: &Path) -> Result<Alpha, Failure> {
+    let backdrop = settings.iter().find(|s| s.spec.name == "backdrop");
+    if backdrop.and_then(SettingValue::word) != Some(TRANSPARENT) {
+        return Ok(Alpha::LeftOut);
+    }
+    if Container::of(path) == Some(Container::Gif) {
+        return Err(Failure::usage_hint(
+            "a GIF is opaque or empty at a pixel, and edges that are half of both would be ragged",
+            "write .apng, numbered .png or .exr files, or choose another backdrop",
+        ));
+    }
+    Ok(Alpha::Kept)
 }
 
 /// How many frames are wanted, none for a still picture, and what the file or files hold.

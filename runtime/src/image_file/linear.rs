@@ -7,7 +7,7 @@ use exr::prelude::{
     WritableImage, f16,
 };
 
-use super::Metadata;
+use super::{Alpha, Metadata};
 use crate::{Error, RowSink, Size};
 
 /// Most pixels of an OpenEXR picture, which is held in memory: 1 GiB of them.
@@ -36,9 +36,21 @@ fn srgb_encode(linear: f32) -> f64 {
     }
 }
 
-/// Rows of linear `f32` on their way to 16 bits of sRGB, most significant byte first; alpha is left out.
+/// sRGB that is not premultiplied, and alpha, of a pixel of linear light that is. Light of more than its alpha is cut off.
+fn straight([r, g, b, a]: [f32; 4], alpha: Alpha) -> [f64; 4] {
+    let a = match alpha {
+        Alpha::LeftOut => 1.0,
+        // not a number counts as nothing
+        Alpha::Kept => a.max(0.0).min(1.0),
+    };
+    let part = |x: f32| srgb_encode(if a > 0.0 { x / a } else { 0.0 });
+    [part(r), part(g), part(b), f64::from(a)]
+}
+
+/// Rows of linear `f32`, premultiplied, on their way to 16 bits of sRGB, not premultiplied, most significant byte first.
 pub(super) struct Png16Rows<W: Write> {
     pub(super) stream: W,
+    pub(super) alpha: Alpha,
     pub(super) line: Vec<u8>,
 }
 
@@ -46,9 +58,10 @@ impl<W: Write> RowSink for Png16Rows<W> {
     fn rows(&mut self, pixels: &[u8]) -> io::Result<()> {
         self.line.clear();
         for pixel in pixels.as_chunks::<16>().0 {
-            for channel in &pixel.as_chunks::<4>().0[..3] {
-                let encoded = srgb_encode(f32::from_le_bytes(*channel));
-                let whole = (encoded * 65535.0).round() as u16;
+            let numbers = [0, 1, 2, 3].map(|k| f32::from_le_bytes(pixel.as_chunks::<4>().0[k]));
+            let straight = straight(numbers, self.alpha);
+            for part in &straight[..self.alpha.channels()] {
+                let whole = (part * 65535.0).round() as u16;
                 self.line.extend(whole.to_be_bytes());
             }
         }
@@ -129,7 +142,7 @@ fn encode_exr(
 mod tests {
     use exr::prelude::{ReadChannels, ReadLayers, read};
 
-    use super::super::{Format, write};
+    use super::super::{Alpha, Format, write};
     use super::*;
 
     const SIZE: Size = Size {
@@ -155,20 +168,27 @@ mod tests {
         Ok(())
     }
 
-    #[test]
-    fn a_png_of_16_bits_holds_srgb() {
+    fn png_of_16_bits(alpha: Alpha) -> Vec<u16> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.png");
-        write(&path, Format::Png16, SIZE, &Metadata::default(), draw).unwrap();
+        write(
+            &path,
+            (Format::Png16, alpha),
+            SIZE,
+            &Metadata::default(),
+            draw,
+        )
+        .unwrap();
         let file = io::BufReader::new(std::fs::File::open(path).unwrap());
         let mut reader = png::Decoder::new(file).read_info().unwrap();
         let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
         reader.next_frame(&mut bytes).unwrap();
-        let numbers = bytes
-            .as_chunks::<2>()
-            .0
-            .iter()
-            .map(|pair| u16::from_be_bytes(*pair));
+        let pairs = bytes.as_chunks::<2>().0.iter();
+        pairs.map(|pair| u16::from_be_bytes(*pair)).collect()
+    }
+
+    #[test]
+    fn a_png_of_16_bits_holds_srgb() {
         // 65535 times IEC 61966-2-1 of each channel, by another program (Python, decimal arithmetic)
         let expected = [
             [0, 48192, 65535],
@@ -176,7 +196,19 @@ mod tests {
             [0, 847, 32768],
             [65535, 65535, 65535],
         ];
-        assert_eq!(numbers.collect::<Vec<_>>(), expected.as_flattened());
+        assert_eq!(png_of_16_bits(Alpha::LeftOut), expected.as_flattened());
+    }
+
+    #[test]
+    fn a_png_of_16_bits_holds_colours_that_are_not_premultiplied() {
+        // by the same program, of the channels divided by alpha
+        let expected = [
+            [0, 48192, 65535, 65535],
+            [3387, 48192, 65535, 32768],
+            [0, 847, 32768, 65535],
+            [0, 0, 0, 0],
+        ];
+        assert_eq!(png_of_16_bits(Alpha::Kept), expected.as_flattened());
     }
 
     #[test]
@@ -185,7 +217,7 @@ mod tests {
         let metadata = Metadata(vec![("Formula", "x + π".into())]);
         for (format, error) in [(Format::ExrFloat, 0.0), (Format::ExrHalf, 0.5_f32.powi(11))] {
             let path = folder.path().join("a.exr");
-            write(&path, format, SIZE, &metadata, draw).unwrap();
+            write(&path, (format, Alpha::Kept), SIZE, &metadata, draw).unwrap();
             let image = read()
                 .no_deep_data()
                 .largest_resolution_level()

@@ -12,4 +12,5 @@ mod nested;
 mod projection;
 mod scatter;
 mod slices;
+mod transparency;
 mod volume;
