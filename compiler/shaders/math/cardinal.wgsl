@@ -47,13 +47,7 @@ fn complex_sinhc(z: vec2f) -> vec2f {
         if complex_is_infinite(sinh) {
             return overflowed_quotient(vec2f(magnitude(z.x), flip_sign(z.y, sign_bit(z.x))));
         }
-        // scaled, so that no product overflows before their difference does
-        let down = 5.421010862427522e-20; // 2^-64
-        let up = 18446744073709551616.0;
-        let product = up * complex_mul(down * complex_div(sinh, half), down * complex_cosh(half));
-        // hidden, for the square of what scales up is infinite
-        let zero = hidden_zero(z.x);
-        return up * vec2f(opaque(product.x, zero), opaque(product.y, zero));
+        return complex_mul(complex_div(sinh, half), complex_cosh(half));
     }
     return complex_div(complex_sinh(z), z);
 }
