@@ -22,6 +22,16 @@ impl Growing {
         )
     }
 
+    /// Shaders add to what is in it, and it is cleared and copied from.
+    pub(crate) fn sums() -> Self {
+        Self::new(
+            "sums",
+            wgpu::BufferUsages::STORAGE
+                | wgpu::BufferUsages::COPY_SRC
+                | wgpu::BufferUsages::COPY_DST,
+        )
+    }
+
     /// Shaders read it, and it is written from here.
     pub(crate) fn inputs() -> Self {
         Self::new(

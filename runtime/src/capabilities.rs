@@ -143,6 +143,8 @@ pub struct Capabilities {
     pub double_decorated: Option<Arithmetic>,
     /// Forms of the exact steps of pairs.
     pub forms: Vec<Form>,
+    /// Turns after which all loops of an invocation end without an error; none where 2²⁰ were made.
+    pub turns: Option<u32>,
 }
 
 /// Findings of this process.
@@ -297,6 +299,7 @@ pub(crate) mod tests {
             single_decorated: Some(arithmetic.clone()),
             double_decorated: Some(arithmetic),
             forms: Exactness::ALL.map(|form| Form::new(form, 0.0)).into(),
+            turns: None,
         }
     }
 

@@ -43,6 +43,13 @@ pub enum Error {
         /// How long it was waited for.
         seconds: u64,
     },
+    /// The adapter ends loops without an error before a picture is done.
+    Turns {
+        /// The adapter's name.
+        adapter: String,
+        /// How many turns all loops of an invocation may make together.
+        turns: u32,
+    },
     /// A request that no device could fulfil, such as a picture without pixels.
     Invalid {
         /// What is wrong with it.
@@ -84,6 +91,11 @@ impl fmt::Display for Error {
                     "device did not finish within {seconds} s during {during}"
                 )
             }
+            Self::Turns { adapter, turns } => write!(
+                f,
+                "{adapter} ends loops after {turns} turns, and a sample of this picture takes more: it would be wrong; \
+                 take fewer steps, or let another adapter or the processor draw it"
+            ),
             Self::Invalid { reason } => f.write_str(reason),
             Self::Executor(fault) => fault.fmt(f),
             Self::Io(error) => error.fmt(f),

@@ -5,6 +5,7 @@ mod format;
 mod rows;
 mod special;
 mod steps;
+pub(crate) mod turns;
 
 use crate::capabilities::{Capabilities, Key, Offered};
 use crate::decorate::can_decorate;
@@ -12,11 +13,12 @@ use crate::kernel::Contraction;
 use crate::{Error, Gpu};
 
 /// Every text that is run: another text is another probe, whose findings replace older ones.
-pub(crate) const TEXTS: [&str; 4] = [
+pub(crate) const TEXTS: [&str; 5] = [
     include_str!("probe/arithmetic.wgsl"),
     include_str!("probe/steps.wgsl"),
     include_str!("probe/single.wgsl"),
     include_str!("probe/double.wgsl"),
+    turns::TEXT,
 ];
 
 /// Tries the arithmetic of a device: a handful of small dispatches.
@@ -47,6 +49,7 @@ pub fn capabilities(gpu: &Gpu) -> Result<Capabilities, Error> {
             .then(|| arithmetic::try_out::<f64>(gpu, strict).ok())
             .flatten(),
         forms: steps::try_out(gpu, offered.decorations)?,
+        turns: turns::limit(gpu)?,
         offered,
     })
 }

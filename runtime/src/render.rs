@@ -2,6 +2,7 @@
 
 mod compute;
 mod fragment;
+mod sums;
 
 use std::io;
 use std::time::Instant;
@@ -9,12 +10,14 @@ use std::time::Instant;
 use pullback_compiler::SceneModule;
 use pullback_compiler::lower::Format;
 
+use crate::probe::turns;
 use crate::tiles::{self, Budget, Pending, Tile};
 use crate::uniforms::{self, MAX_PARAMS, ViewUniform, WideWords};
 use crate::{Error, Gpu, buffers, shader};
 
 use compute::ComputeStage;
 use fragment::FragmentStage;
+use sums::SumStage;
 
 /// Largest width and height of a picture.
 pub const MAX_SIDE: u32 = 16384;
@@ -90,6 +93,11 @@ impl Frame<'_> {
     #[must_use]
     pub fn pixel(&self) -> f64 {
         self.view.height / f64::from(self.size.height)
+    }
+
+    /// Samples of a pixel.
+    pub(crate) fn samples_of_pixel(&self) -> u32 {
+        self.samples * self.samples
     }
 
     /// Says what is wrong with the frame, whatever the scene.
@@ -176,6 +184,11 @@ pub struct Renderer {
     compute: Option<ComputeStage>,
     fragment: Option<FragmentStage>,
     linear: Option<ComputeStage>,
+    sums: Option<SumStage>,
+    /// Turns after which the adapter ends all loops of an invocation without an error, where it does.
+    turns: Option<u32>,
+    /// Samples of a pixel that a submission may have for that, as far as is known from pictures before.
+    most: u32,
 }
 
 /// The buffers at bindings 0 to 3, which every tile reads.
@@ -206,6 +219,9 @@ impl Renderer {
             compute: None,
             fragment: None,
             linear: None,
+            sums: None,
+            turns: turns::limit(gpu)?,
+            most: u32::MAX,
         })
     }
 
@@ -221,9 +237,21 @@ impl Renderer {
     /// [`Error::Invalid`] for a frame outside of the limits, [`Error::Io`] from the sink, and the device's errors.
     pub fn render(&mut self, frame: &Frame, sink: &mut dyn RowSink) -> Result<(), Error> {
         self.check(frame)?;
-        let stage = self.stage(frame.pipeline)?;
-        let budget = Budget::new(frame.samples, stage.max_pixels(), stage.max_side());
+        let budget = self.budget(frame)?;
         self.render_within(frame, budget, sink)
+    }
+
+    fn budget(&mut self, frame: &Frame) -> Result<Budget, Error> {
+        let (most, software) = (self.most, self.gpu.adapter().is_software());
+        let sums = sums::max_pixels(&self.gpu);
+        let stage = self.stage(frame.pipeline)?;
+        let (pixels, side) = (stage.max_pixels().min(sums), stage.max_side());
+        let budget = Budget::new(frame.samples, pixels, side).with_most(most);
+        Ok(if software {
+            budget
+        } else {
+            budget.filling(frame.size)
+        })
     }
 
     fn render_within(
@@ -238,9 +266,7 @@ impl Renderer {
         let first = tiles::probe(width, height, frame.samples);
         // Twice: the first run of a pipeline may still compile.
         for _ in 0..2 {
-            let start = Instant::now();
-            self.tile(frame, first, |_, _| ())?;
-            budget.learn(first, start.elapsed());
+            self.tile(frame, first, &mut budget, |_, _| ())?;
         }
         let mut band = Vec::new();
         let pixel = frame.pipeline.bytes_per_pixel();
@@ -256,12 +282,10 @@ impl Renderer {
                 height: rows,
             });
             while let Some(tile) = pending.next(&budget) {
-                let start = Instant::now();
-                self.tile(frame, tile, |bytes, stride| {
+                self.tile(frame, tile, &mut budget, |bytes, stride| {
                     let line = width as usize * pixel;
                     place(&mut band, line, pixel, (tile, top), bytes, stride);
                 })?;
-                budget.learn(tile, start.elapsed());
                 done += tile.pixels();
                 sink.progress(done, total);
             }
@@ -317,19 +341,37 @@ impl Renderer {
         })
     }
 
-    /// Computes one tile and shows its bytes, with the number of bytes from row to row, to `look`.
+    /// Computes one tile, shows its bytes, with the number of bytes from row to row, to `look`, and learns what it costs.
     fn tile(
         &mut self,
         frame: &Frame,
         tile: Tile,
+        budget: &mut Budget,
         look: impl FnOnce(&[u8], usize),
     ) -> Result<(), Error> {
         let view = view_uniform(frame, tile);
-        let gpu = self.gpu.clone();
-        gpu.guarded("upload", || {
-            gpu.queue()
-                .write_buffer(&self.uniforms.view, 0, bytemuck::bytes_of(&view));
+        self.gpu.guarded("upload", || {
+            let queue = self.gpu.queue();
+            queue.write_buffer(&self.uniforms.view, 0, bytemuck::bytes_of(&view));
         })?;
+        // Only sums tell whether loops have ended early.
+        if self.turns.is_none() && budget.share(tile) == frame.samples_of_pixel() {
+            self.whole_tile(frame, tile, budget, look)
+        } else {
+            self.tile_in_parts(frame, tile, budget, look)
+        }
+    }
+
+    /// All samples in one submission.
+    fn whole_tile(
+        &mut self,
+        frame: &Frame,
+        tile: Tile,
+        budget: &mut Budget,
+        look: impl FnOnce(&[u8], usize),
+    ) -> Result<(), Error> {
+        let start = Instant::now();
+        let gpu = self.gpu.clone();
         // The uniforms are cheap handles; the stage borrows the renderer.
         let uniforms = self.uniforms.share();
         let Recorded {
@@ -340,7 +382,42 @@ impl Renderer {
         } = self.stage(frame.pipeline)?.record(&gpu, &uniforms, tile)?;
         buffers::submit_and_read(&gpu, "rendering", encoder, &readable, bytes, |pixels| {
             look(pixels, stride);
-        })
+        })?;
+        budget.learn(tile, frame.samples_of_pixel(), start.elapsed());
+        Ok(())
+    }
+
+    /// Some samples in each submission; fewer, if otherwise loops end early.
+    fn tile_in_parts(
+        &mut self,
+        frame: &Frame,
+        tile: Tile,
+        budget: &mut Budget,
+        look: impl FnOnce(&[u8], usize),
+    ) -> Result<(), Error> {
+        let gpu = self.gpu.clone();
+        let stage = match &mut self.sums {
+            Some(stage) => stage,
+            empty => empty.insert(SumStage::new(&gpu, &self.shader)?),
+        };
+        loop {
+            let sums = stage.draw(&self.uniforms, frame, tile, budget)?;
+            if let Some(rows) = sums.rows {
+                look(
+                    &rows,
+                    tile.width as usize * frame.pipeline.bytes_per_pixel(),
+                );
+                return Ok(());
+            }
+            if sums.largest_part == 1 {
+                return Err(Error::Turns {
+                    adapter: gpu.adapter().name.clone(),
+                    turns: self.turns.unwrap_or_default(),
+                });
+            }
+            self.most = sums.largest_part / 2;
+            *budget = budget.with_most(self.most);
+        }
     }
 }
 
@@ -438,206 +515,4 @@ fn place(
 }
 
 #[cfg(test)]
-mod tests {
-    use std::sync::atomic::AtomicBool;
-
-    use super::*;
-    use crate::AdapterChoice;
-    use crate::executor::{Arithmetic, Painter};
-    use pullback_compiler::lower::Precision;
-
-    const SIZE: Size = Size {
-        width: 213,
-        height: 117,
-    };
-
-    /// The scene of a formula, and the bytes of its settings.
-    fn scene(formula: &str) -> (SceneModule, Vec<u8>) {
-        let program = pullback_compiler::compile(formula).program.unwrap();
-        match program.scene_module(0, Precision::Accurate) {
-            Ok(scene) => {
-                let settings = scene.pack_settings(&program.pictures()[0].settings);
-                (scene, settings)
-            }
-            Err(diagnostics) => panic!("{diagnostics:?}"),
-        }
-    }
-
-    fn frame(settings: &[u8], pipeline: Pipeline) -> Frame<'_> {
-        Frame {
-            view: View {
-                center: [0.0, 0.0],
-                height: 8.0,
-            },
-            params: &[],
-            settings,
-            size: SIZE,
-            samples: 2,
-            time: 0.0,
-            pipeline,
-        }
-    }
-
-    /// A software adapter, if there is one: the same results everywhere.
-    fn software() -> Option<Gpu> {
-        Gpu::open(&AdapterChoice::Software).ok()
-    }
-
-    #[test]
-    fn both_pipelines_and_any_tiles_give_one_picture() {
-        let Some(gpu) = software() else { return };
-        let (scene, settings) = scene("x^2 + y^2");
-        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
-        let mut pictures = Vec::new();
-        for pipeline in [Pipeline::Compute, Pipeline::Fragment] {
-            for (max_pixels, max_side) in [(u64::MAX, 8192), (1000, 8192), (u64::MAX, 64), (1, 8)] {
-                let budget = Budget::new(2, max_pixels, max_side);
-                let mut rows = Vec::new();
-                renderer
-                    .render_within(&frame(&settings, pipeline), budget, &mut rows)
-                    .unwrap();
-                assert_eq!(rows.len(), 213 * 117 * 4);
-                pictures.push(rows);
-            }
-        }
-        for picture in &pictures[1..] {
-            assert!(*picture == pictures[0]);
-        }
-        let distinct: std::collections::HashSet<_> =
-            pictures[0].as_chunks::<4>().0.iter().collect();
-        assert!(distinct.len() > 20, "{} colours", distinct.len());
-    }
-
-    #[test]
-    fn linear_light_is_what_the_picture_is_made_of() {
-        let Some(gpu) = software() else { return };
-        let (scene, settings) = scene("x^2 - y^2");
-        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
-        let (mut encoded, mut linear) = (Vec::new(), Vec::new());
-        let render = &mut |pipeline, rows: &mut Vec<u8>| {
-            renderer.render(&frame(&settings, pipeline), rows).unwrap();
-        };
-        render(Pipeline::Compute, &mut encoded);
-        render(Pipeline::Linear, &mut linear);
-        assert_eq!(linear.len(), 4 * encoded.len());
-        for (byte, word) in encoded.iter().zip(linear.as_chunks::<4>().0) {
-            // its inverse (IEC 61966-2-1): the byte may be half a step off, and the dither as much
-            let light = |byte: f32| match (byte / 255.0).clamp(0.0, 1.0) {
-                low if low <= 0.04045 => low / 12.92,
-                high => ((high + 0.055) / 1.055).powf(2.4),
-            };
-            let (value, byte) = (f32::from_le_bytes(*word).clamp(0.0, 1.0), f32::from(*byte));
-            let (low, high) = (light(byte - 1.01), light(byte + 1.01));
-            assert!((low..=high).contains(&value), "{value} {byte}");
-        }
-    }
-
-    #[test]
-    fn the_processor_gives_the_same_linear_light() {
-        let Some(gpu) = software() else { return };
-        let (scene, settings) = scene("x^2 - y^2");
-        let program = pullback_compiler::compile("x^2 - y^2").program.unwrap();
-        let frame = frame(&settings, Pipeline::Linear);
-        let (mut found, mut expected) = (Vec::new(), Vec::new());
-        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
-        renderer.render(&frame, &mut found).unwrap();
-        Painter::new(&scene, Arithmetic::Reference, Pipeline::Linear)
-            .unwrap()
-            .render(
-                &frame,
-                &program.pictures()[0].settings,
-                &AtomicBool::new(false),
-                &mut expected,
-            )
-            .unwrap();
-        let words = |bytes: &[u8]| -> Vec<f32> {
-            let words = bytes.as_chunks::<4>().0;
-            words.iter().map(|word| f32::from_le_bytes(*word)).collect()
-        };
-        for (found, expected) in words(&found).into_iter().zip(words(&expected)) {
-            assert!((found - expected).abs() < 1e-4, "{found} {expected}");
-        }
-        assert_eq!(found.len(), expected.len());
-    }
-
-    #[test]
-    fn a_frame_outside_of_the_limits_is_refused() {
-        let Some(gpu) = software() else { return };
-        let (scene, settings) = scene("x + y");
-        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
-        let good = frame(&settings, Pipeline::Compute);
-        let many = [0.0; 65];
-        let size = |width, height| Size { width, height };
-        let bad = [
-            Frame {
-                size: size(0, 5),
-                ..good.clone()
-            },
-            Frame {
-                size: size(5, MAX_SIDE + 1),
-                ..good.clone()
-            },
-            Frame {
-                samples: 0,
-                ..good.clone()
-            },
-            Frame {
-                samples: MAX_SAMPLES + 1,
-                ..good.clone()
-            },
-            Frame {
-                params: &many,
-                ..good.clone()
-            },
-            Frame {
-                settings: &[0; 4096],
-                ..good.clone()
-            },
-            Frame {
-                settings: &[0; 3],
-                ..good.clone()
-            },
-            Frame {
-                view: View {
-                    center: [0.0; 2],
-                    height: 0.0,
-                },
-                ..good.clone()
-            },
-            Frame {
-                view: View {
-                    center: [0.0; 2],
-                    height: f64::NAN,
-                },
-                ..good.clone()
-            },
-            Frame {
-                view: View {
-                    center: [1e300, 0.0],
-                    height: 1.0,
-                },
-                ..good.clone()
-            },
-        ];
-        for frame in bad {
-            let refused = renderer.render(&frame, &mut Vec::new());
-            assert!(matches!(refused, Err(Error::Invalid { .. })), "{refused:?}");
-        }
-        assert!(renderer.render(&good, &mut Vec::new()).is_ok());
-    }
-
-    #[test]
-    fn a_failing_sink_ends_the_picture() {
-        struct Full;
-        impl RowSink for Full {
-            fn rows(&mut self, _: &[u8]) -> io::Result<()> {
-                Err(io::ErrorKind::StorageFull.into())
-            }
-        }
-        let Some(gpu) = software() else { return };
-        let (scene, settings) = scene("x + y");
-        let mut renderer = Renderer::new(&gpu, &scene).unwrap();
-        let failed = renderer.render(&frame(&settings, Pipeline::Compute), &mut Full);
-        assert!(matches!(failed, Err(Error::Io(_))), "{failed:?}");
-    }
-}
+mod tests;

@@ -11,9 +11,13 @@ pub mod corpus;
 #[cfg(feature = "gpu")]
 pub mod deep_zoom;
 pub mod formatting;
+#[cfg(feature = "gpu")]
+pub mod goldens;
 pub mod holds;
 pub mod loops;
 pub mod mutate;
 #[cfg(feature = "gpu")]
 pub mod pictures;
+#[cfg(feature = "gpu")]
+pub mod stills;
 pub mod units;

@@ -1,6 +1,9 @@
 // Entry points: the same picture `shade` through a full-screen fragment pass or through a compute pass, and in linear
 // light. All average `view.samples`² regular samples in linear light; the first two encode to sRGB and dither by half a
 // step of 8 bits, as a function of the absolute pixel: tiles join without a seam and both passes agree.
+//
+// Where the samples of a pixel take too long for one pass, `sum_main` adds some of them at a time to what is in `image`, and
+// `encode_main` makes the same picture of the sum.
 
 struct View {
     center: vec2f,     // world coordinates of the centre of the whole image
@@ -15,23 +18,39 @@ struct View {
 
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(4) var<storage, read_write> image: array<u32>;
+// Which samples of each pixel `sum_main` takes: the first, and how many. They are numbered row by row.
+@group(0) @binding(5) var<uniform> part: vec2u;
 
 // The scene's picture: linear rgb, premultiplied by alpha, and alpha at a point of the whole image.
 fn shade(pixel: vec2f) -> vec4f { return vec4f(); }
 // Shared: linear light to sRGB.
 fn srgb_encode(linear: vec3f) -> vec3f { return vec3f(); }
 
-// Mean of a regular grid of samples over the pixel whose top-left corner is `corner`.
-fn pixel_mean(corner: vec2f) -> vec4f {
+// Adds some samples of a regular grid over the pixel whose top-left corner is `corner`, one after the other.
+fn with_samples(before: vec4f, corner: vec2f, first: u32, end: u32) -> vec4f {
     let count = max(view.samples, 1u);
     let step = 1.0 / f32(count);
-    var sum = vec4f();
-    for (var j = 0u; j < count; j++) {
-        for (var i = 0u; i < count; i++) {
-            sum += shade(corner + (vec2f(f32(i), f32(j)) + 0.5) * step);
-        }
+    var sum = before;
+    for (var k = first; k < end; k++) {
+        let place = vec2f(f32(k % count), f32(k / count));
+        sum += shade(corner + (place + 0.5) * step);
     }
+    return sum;
+}
+
+// Samples of a pixel.
+fn sample_count() -> u32 {
+    let count = max(view.samples, 1u);
+    return count * count;
+}
+
+fn mean_of(sum: vec4f) -> vec4f {
+    let step = 1.0 / f32(max(view.samples, 1u));
     return sum * (step * step);
+}
+
+fn pixel_mean(corner: vec2f) -> vec4f {
+    return mean_of(with_samples(vec4f(), corner, 0u, sample_count()));
 }
 
 // A threshold in (0, 1), evenly spread over neighbouring pixels: the rank-1 lattice of the plastic number ρ,
@@ -42,15 +61,19 @@ fn dither_threshold(pixel: vec2u) -> f32 {
     return (f32(lattice >> 16u) + 0.5) / 65536.0;
 }
 
-// The displayable colour of a pixel of this tile, not premultiplied, to be rounded to 8 bits by the caller. A value that
-// 8 bits hold exactly stays as it is.
-fn encoded_pixel(local: vec2u) -> vec4f {
-    let corner = vec2f(local) + view.tile;
-    let mean = pixel_mean(corner);
+// A mean, premultiplied, as a displayable colour that is not, to be rounded to 8 bits by the caller. A value that 8 bits hold
+// exactly stays as it is.
+fn encoded(mean: vec4f, corner: vec2f) -> vec4f {
     let alpha = clamp(mean.a, 0.0, 1.0);
     let encoded = srgb_encode(clamp(mean.rgb / max(alpha, 1e-6), vec3f(0.0), vec3f(1.0)));
     let noise = (dither_threshold(vec2u(corner)) - 0.5) / 255.0;
     return vec4f(clamp(encoded + noise, vec3f(0.0), vec3f(1.0)), alpha);
+}
+
+// The displayable colour of a pixel of this tile.
+fn encoded_pixel(local: vec2u) -> vec4f {
+    let corner = vec2f(local) + view.tile;
+    return encoded(pixel_mean(corner), corner);
 }
 
 // One triangle that covers the target.
@@ -79,10 +102,55 @@ fn linear_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
         return;
     }
-    let mean = pixel_mean(vec2f(id.xy) + view.tile);
-    let at = 4u * (id.y * view.tile_size.x + id.x);
-    image[at] = bitcast<u32>(mean.r);
-    image[at + 1u] = bitcast<u32>(mean.g);
-    image[at + 2u] = bitcast<u32>(mean.b);
-    image[at + 3u] = bitcast<u32>(mean.a);
+    store(pixel_at(id.xy), pixel_mean(vec2f(id.xy) + view.tile));
+}
+
+// Pixels are four words apart, and behind the last one is a word for whether a sum has gone wrong.
+@compute @workgroup_size(8, 8)
+fn sum_main(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= view.tile_size) {
+        return;
+    }
+    let at = pixel_at(id.xy);
+    let before = stored(at);
+    store(at, with_samples(before, vec2f(id.xy) + view.tile, part.x, part.x + part.y));
+    if loops_end_early() {
+        image[4u * view.tile_size.x * view.tile_size.y] = 1u;
+    }
+}
+
+@compute @workgroup_size(8, 8)
+fn encode_main(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= view.tile_size) {
+        return;
+    }
+    let at = pixel_at(id.xy);
+    image[at] = pack4x8unorm(encoded(mean_of(stored(at)), vec2f(id.xy) + view.tile));
+}
+
+// Place in `image` of a pixel of this tile, of four words.
+fn pixel_at(local: vec2u) -> u32 {
+    return 4u * (local.y * view.tile_size.x + local.x);
+}
+
+fn stored(at: u32) -> vec4f {
+    return bitcast<vec4f>(vec4u(image[at], image[at + 1u], image[at + 2u], image[at + 3u]));
+}
+
+fn store(at: u32, value: vec4f) {
+    let words = bitcast<vec4u>(value);
+    image[at] = words.x;
+    image[at + 1u] = words.y;
+    image[at + 2u] = words.z;
+    image[at + 3u] = words.w;
+}
+
+// Whether this invocation has used up the turns that the adapter allows all its loops together: then every further loop ends
+// after its first turn, without an error.
+fn loops_end_early() -> bool {
+    var turns = 0u;
+    for (var k = view.zero; k < 2u; k++) {
+        turns++;
+    }
+    return turns < 2u;
 }

@@ -6,7 +6,7 @@ use crate::tiles::Tile;
 use crate::{Error, Gpu};
 
 /// Side of a workgroup of the entry points.
-const WORKGROUP: u32 = 8;
+pub(super) const WORKGROUP: u32 = 8;
 
 /// Pipeline and buffers of the compute path.
 #[derive(Debug)]
@@ -51,22 +51,7 @@ impl ComputeStage {
                 label: Some("compute"),
                 entries: &[view, params, settings, wide, image],
             });
-            let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("compute"),
-                bind_group_layouts: &[Some(&layout)],
-                immediate_size: 0,
-            });
-            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some("compute"),
-                layout: Some(&pipeline_layout),
-                module: shader,
-                entry_point: Some(entry),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    zero_initialize_workgroup_memory: false,
-                    ..Default::default()
-                },
-                cache: None,
-            });
+            let pipeline = self::pipeline(gpu, shader, &layout, entry);
             Self {
                 layout,
                 pipeline,
@@ -84,6 +69,32 @@ impl ComputeStage {
             }
         })
     }
+}
+
+/// The pipeline of an entry point.
+pub(super) fn pipeline(
+    gpu: &Gpu,
+    shader: &wgpu::ShaderModule,
+    layout: &wgpu::BindGroupLayout,
+    entry: &str,
+) -> wgpu::ComputePipeline {
+    let device = gpu.device();
+    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(entry),
+        bind_group_layouts: &[Some(layout)],
+        immediate_size: 0,
+    });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(entry),
+        layout: Some(&pipeline_layout),
+        module: shader,
+        entry_point: Some(entry),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            zero_initialize_workgroup_memory: false,
+            ..Default::default()
+        },
+        cache: None,
+    })
 }
 
 impl Stage for ComputeStage {

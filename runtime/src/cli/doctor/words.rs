@@ -89,7 +89,11 @@ fn tried(trial: &Trial) -> String {
         .iter()
         .map(|form| format!("{}: {}", form.name, exact(form.wrong)))
         .collect();
-    text + &line("pairs", &forms.join("; "))
+    text += &line("pairs", &forms.join("; "));
+    let loops = found.turns.map_or("are not ended".to_owned(), |turns| {
+        format!("end without an error after {turns} turns in all")
+    });
+    text + &line("loops", &loops)
 }
 
 /// The arithmetic of a format.
