@@ -131,7 +131,10 @@ impl<'g> Writer<'g> {
             Op::Param(k) => (leaf(self.names.params, k, "param"), Hold::Whole),
             Op::Time => ("time".into(), Hold::Whole),
             Op::Pixel => ("pixel".into(), Hold::Whole),
-            Op::Variable(k) => (format!("variable{k}"), Hold::Whole),
+            Op::Variable(k) => {
+                let name = self.graph.name(id).map(str::to_owned);
+                (name.unwrap_or_else(|| format!("variable{k}")), Hold::Whole)
+            }
             Op::State(..) => {
                 let name = self.graph.name(id).map(str::to_owned);
                 let name = name.filter(|n| !self.taken.contains(n));
