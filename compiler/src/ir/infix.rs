@@ -220,9 +220,13 @@ impl<'g> Writer<'g> {
             }
             Prim::Complex => self.complex(node),
             Prim::Hypot3 => (format!("length(({}))", self.list(node)), Hold::Whole),
-            Prim::Polygamma(n) => (format!("polygamma({n}, {})", self.list(node)), Hold::Whole),
             _ => {
                 let row = table::row(prim);
+                // the first of a family has a name of its own
+                if let Some(n) = prim.order().filter(|&n| n > 0 || row.names.is_empty()) {
+                    let call = format!("{}({n}, {})", row.mnemonic, self.list(node));
+                    return (call, Hold::Whole);
+                }
                 let name = row.names.first().copied().unwrap_or(row.mnemonic);
                 (format!("{name}({})", self.list(node)), Hold::Whole)
             }
