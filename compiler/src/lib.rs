@@ -22,6 +22,7 @@ pub mod derive;
 pub mod emit;
 pub mod eval;
 pub mod formula;
+pub mod integrate;
 pub mod ir;
 pub mod link;
 pub mod lower;

@@ -325,8 +325,10 @@ pub enum Expr {
         /// Tested before each step; where it holds, the iteration ends.
         until: Option<ExprId>,
     },
-    /// `integral(body, t, a, b)`, `integral(t in a..b, body)`
+    /// `integral(body, t, a, b)`, `integral(t in a..b, body)`, and `quadrature` alike
     Integral {
+        /// How it is found.
+        method: Method,
         /// The integrand, which sees the variable.
         body: ExprId,
         /// The variable and the ends.
@@ -354,6 +356,26 @@ pub struct Local {
     pub field: Option<Name>,
     /// The value.
     pub value: ExprId,
+}
+
+/// How an integral is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// In closed form.
+    Closed,
+    /// Numerically.
+    Quadrature,
+}
+
+impl Method {
+    /// The word that asks for it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Closed => "integral",
+            Self::Quadrature => "quadrature",
+        }
+    }
 }
 
 /// What a series does with its terms.
@@ -419,7 +441,7 @@ impl Expr {
                 steps.iter().copied().for_each(&mut visit);
                 until.iter().copied().for_each(visit);
             }
-            Self::Integral { body, range } => {
+            Self::Integral { body, range, .. } => {
                 visit(*body);
                 visit(range.lower);
                 visit(range.upper);

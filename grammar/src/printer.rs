@@ -526,8 +526,12 @@ fn parts<'a>(stack: &mut Vec<Work<'a>>, tree: Tree<'a>, id: ExprId, in_bars: boo
             }
             stack.push(Text(")"));
         }
-        Expr::Integral { body, range: found } => {
-            stack.push(Text("integral("));
+        Expr::Integral {
+            method,
+            body,
+            range: found,
+        } => {
+            stack.extend([Text(method.word()), Text("(")]);
             range(stack, found);
             stack.extend([Text(", "), Work::Expr(*body, Level::If, false), Text(")")]);
         }

@@ -150,9 +150,18 @@ fn same_node(one: &Expr, other: &Expr) -> bool {
                 |(a, b): (&(crate::ast::Name, _), &(crate::ast::Name, _))| a.0.text == b.0.text;
             a.len() == b.len() && a.iter().zip(b).all(names) && of_a.is_some() == of_b.is_some()
         }
-        (Expr::Integral { range: a, .. }, Expr::Integral { range: b, .. }) => {
-            a.name.text == b.name.text
-        }
+        (
+            Expr::Integral {
+                method: of_a,
+                range: a,
+                ..
+            },
+            Expr::Integral {
+                method: of_b,
+                range: b,
+                ..
+            },
+        ) => of_a == of_b && a.name.text == b.name.text,
         _ => false,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::ast::SeriesKind;
+use crate::ast::{Method, SeriesKind};
 
 /// Names that are values wherever they are not defined anew.
 const VALUES: [&str; 15] = [
@@ -11,7 +11,7 @@ const VALUES: [&str; 15] = [
 ];
 
 /// Names of the operators of calculus; their first argument may be the bare name of a function.
-const OPERATORS: [&str; 10] = [
+const OPERATORS: [&str; 9] = [
     "diff",
     "grad",
     "div",
@@ -21,7 +21,6 @@ const OPERATORS: [&str; 10] = [
     "hessian",
     "mean_curvature",
     "gaussian_curvature",
-    "quadrature",
 ];
 
 /// A call whose brackets have a syntax of their own.
@@ -31,8 +30,8 @@ pub(crate) enum Form {
     Series(SeriesKind),
     /// `iterate(n, z = z0, step until cond)`
     Iterate,
-    /// `integral(expr, t, a, b)`, `integral(t in a..b, expr)`
-    Integral,
+    /// `integral(expr, t, a, b)`, `integral(t in a..b, expr)`, and `quadrature` alike
+    Integral(Method),
 }
 
 impl Form {
@@ -41,7 +40,8 @@ impl Form {
             "sum" => Self::Series(SeriesKind::Sum),
             "product" => Self::Series(SeriesKind::Product),
             "iterate" => Self::Iterate,
-            "integral" => Self::Integral,
+            "integral" => Self::Integral(Method::Closed),
+            "quadrature" => Self::Integral(Method::Quadrature),
             _ => return None,
         })
     }
@@ -60,7 +60,7 @@ impl Form {
         match self {
             Self::Series(_) => "k in 1..n, term",
             Self::Iterate => "n, z = start, step until condition",
-            Self::Integral => "expr, t, a, b",
+            Self::Integral(_) => "expr, t, a, b",
         }
     }
 }
@@ -226,7 +226,7 @@ impl<'a> Scope<'a> {
 
     /// Whether `callee(f)(x, y)` is `callee(f, x, y)`.
     pub(crate) fn takes_point(&self, callee: &str) -> bool {
-        callee != "quadrature" && self.takes_function(callee)
+        self.takes_function(callee)
     }
 }
 

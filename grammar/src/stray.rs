@@ -230,7 +230,7 @@ fn hint(c: char) -> Option<String> {
         '¾' => "write `3/4`",
         '∛' => "a root is a power: `x^(1/3)`",
         '∜' => "a root is a power: `x^(1/4)`",
-        '∫' => "an integral is `integral(t^2, t, a, b)`; not available in this version",
+        '∫' => "an integral is `integral(t^2, t, a, b)`",
         '∂' => "a derivative is `diff(x^2 y, x)`, or `f'(x)`",
         '∇' => "a gradient is `grad(f)(x, y)`, or `grad(x^2 y, x, y)`",
         '‖' | '∥' => "the length is `|p|`",

@@ -92,6 +92,8 @@ odd_weight = lambda f: lambda z: z * sqrt(z) / f(sqrt(z))
 Q = (pi / 4) ** 2 * mpf("1.001")
 H = log(2) / 2 * mpf("1.001")
 R = sqrt(2)
+erfcx_at = lambda x: exp(x * x) * erfc(x) if x < 1000 else (1 - 1 / (2 * x * x) + 3 / (4 * x**4)) / (x * sqrt(pi))
+erfcx_mapped = lambda y: 2 / sqrt(pi) if y == 1 else (1 + 6 * (1 + y) / (1 - y)) * erfcx_at(3 * (1 + y) / (1 - y))
 
 def shortest(v):
     """The shortest decimal that reads back as this binary32."""
@@ -139,6 +141,14 @@ ROWS = {
     "log_pair": (
         lambda z: (log((1 + sqrt(z)) / (1 - sqrt(z))) / (2 * sqrt(z)) - 1) / z, lambda z: z, 0, 0.0296, 1e-11,
         "log((1+s)/(1-s)) = 2 s (1 + z P(z)), z = s^2",
+    ),
+    "erf": (
+        lambda z: (erf(sqrt(z)) / sqrt(z) - 2 / sqrt(pi)) / z, lambda z: z * sqrt(z) / erf(sqrt(z)), 0, 1, 1e-8,
+        "erf x = x (2/sqrt(pi) + z P(z)), z = x^2, |x| < 1",
+    ),
+    "erfcx": (
+        erfcx_mapped, lambda y: 1 / erfcx_mapped(y), -1, 1, 2e-8,
+        "(1 + 2x) exp(x^2) erfc x = P(y), y = (x - 3)/(x + 3), x > 0",
     ),
     "rgamma": (lambda t: rgamma(1 + t), lambda t: 1, -0.5, 0.5, 1e-8, "1/Gamma(1+t)"),
     "lgamma1": (lambda t: loggamma(1 + t) / t, lambda t: t / loggamma(1 + t), -0.5, 0.5, 1e-8, "log Gamma(1+t) = t P(t)"),

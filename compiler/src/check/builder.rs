@@ -247,7 +247,11 @@ impl<'a> Builder<'a> {
                 steps,
                 until: *until,
             }),
-            Expr::Integral { body, range } => self.integral(*body, range, span),
+            Expr::Integral {
+                method,
+                body,
+                range,
+            } => self.integral(*method, *body, range, span),
         }
     }
 

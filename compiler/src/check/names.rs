@@ -244,7 +244,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 steps,
                 until,
             } => self.iteration(*count, states, steps, *until),
-            Expr::Integral { body, range } => self.integral(*body, range),
+            Expr::Integral { body, range, .. } => self.integral(*body, range),
         }
     }
 

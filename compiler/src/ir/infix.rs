@@ -131,7 +131,10 @@ impl<'g> Writer<'g> {
             Op::Param(k) => (leaf(self.names.params, k, "param"), Hold::Whole),
             Op::Time => ("time".into(), Hold::Whole),
             Op::Pixel => ("pixel".into(), Hold::Whole),
-            Op::Variable(k) => (format!("variable{k}"), Hold::Whole),
+            Op::Variable(k) => {
+                let name = self.graph.name(id).map(str::to_owned);
+                (name.unwrap_or_else(|| format!("variable{k}")), Hold::Whole)
+            }
             Op::State(..) => {
                 let name = self.graph.name(id).map(str::to_owned);
                 let name = name.filter(|n| !self.taken.contains(n));
@@ -217,9 +220,13 @@ impl<'g> Writer<'g> {
             }
             Prim::Complex => self.complex(node),
             Prim::Hypot3 => (format!("length(({}))", self.list(node)), Hold::Whole),
-            Prim::Polygamma(n) => (format!("polygamma({n}, {})", self.list(node)), Hold::Whole),
             _ => {
                 let row = table::row(prim);
+                // the first of a family has a name of its own
+                if let Some(n) = prim.order().filter(|&n| n > 0 || row.names.is_empty()) {
+                    let call = format!("{}({n}, {})", row.mnemonic, self.list(node));
+                    return (call, Hold::Whole);
+                }
                 let name = row.names.first().copied().unwrap_or(row.mnemonic);
                 (format!("{name}({})", self.list(node)), Hold::Whole)
             }

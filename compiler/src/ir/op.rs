@@ -110,6 +110,27 @@ pub enum Prim {
     Sinc,
     Sinhc,
     Exprel,
+    /// ∫₀¹ s²ⁿ/(1 + z s²) ds: for n = 0 atan(√z)/√z.
+    AtanQuotient(u8),
+    /// atan2(√p, x)/√p
+    Atan2Quotient,
+    /// ∫₀¹ sⁿ/(1 + z s)ⁿ⁺¹ ds: for n = 0 log(1 + z)/z.
+    Log1pRel(u8),
+    /// Spherical Bessel function of this order.
+    SphericalJ(u8),
+    /// e^{-|x|} times the modified spherical Bessel function of this order.
+    SphericalIScaled(u8),
+    Erf,
+    Erfc,
+    /// e^{x²} iⁿerfc x: for n = 0 the scaled complementary error function.
+    Erfcx(u8),
+    /// e^{-x²}
+    Gauss,
+    /// ∫ e^{-u²} du over an interval given by centre and half-width.
+    GaussMass,
+    /// The same, divided by the greatest value of the integrand in the interval.
+    GaussMassScaled,
+    Log1pExp,
     Gamma,
     Lgamma,
     Digamma,
@@ -145,4 +166,34 @@ pub enum Prim {
     Not,
     /// `select(c, a, b)`: a where c holds, else b.
     Select,
+}
+
+impl Prim {
+    /// Which member of its family it is; `None` of what is no family, and of integer powers.
+    #[must_use]
+    pub fn order(self) -> Option<u8> {
+        match self {
+            Self::Polygamma(n)
+            | Self::AtanQuotient(n)
+            | Self::Log1pRel(n)
+            | Self::SphericalJ(n)
+            | Self::SphericalIScaled(n)
+            | Self::Erfcx(n) => Some(n),
+            _ => None,
+        }
+    }
+
+    /// The member of the family with this number; itself where it is no family.
+    #[must_use]
+    pub fn with_order(self, n: u8) -> Self {
+        match self {
+            Self::Polygamma(_) => Self::Polygamma(n),
+            Self::AtanQuotient(_) => Self::AtanQuotient(n),
+            Self::Log1pRel(_) => Self::Log1pRel(n),
+            Self::SphericalJ(_) => Self::SphericalJ(n),
+            Self::SphericalIScaled(_) => Self::SphericalIScaled(n),
+            Self::Erfcx(_) => Self::Erfcx(n),
+            other => other,
+        }
+    }
 }

@@ -58,8 +58,11 @@ fn mnemonic(op: Op) -> String {
         }
         Op::Result(k) => format!("result {k}"),
         Op::Apply(Prim::PowInt(n)) => format!("powint {n}"),
-        Op::Apply(Prim::Polygamma(n)) => format!("polygamma {n}"),
-        Op::Apply(prim) => table::row(prim).mnemonic.into(),
+        Op::Apply(prim) => {
+            let word = table::row(prim).mnemonic;
+            prim.order()
+                .map_or_else(|| word.into(), |n| format!("{word} {n}"))
+        }
     }
 }
 
@@ -140,7 +143,12 @@ fn parse_op<'a>(words: &mut impl Iterator<Item = &'a str>) -> Option<Op> {
         },
         "result" => Op::Result(words.next()?.parse().ok()?),
         "powint" => Op::Apply(Prim::PowInt(words.next()?.parse().ok()?)),
-        "polygamma" => Op::Apply(Prim::Polygamma(words.next()?.parse().ok()?)),
-        _ => Op::Apply(table::rows().iter().find(|row| row.mnemonic == word)?.prim),
+        _ => {
+            let prim = table::rows().iter().find(|row| row.mnemonic == word)?.prim;
+            Op::Apply(match prim.order() {
+                Some(_) => prim.with_order(words.next()?.parse().ok()?),
+                None => prim,
+            })
+        }
     })
 }

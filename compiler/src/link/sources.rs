@@ -22,6 +22,9 @@ const MATH: &str = concat!(
     include_str!("../../shaders/math/slope.wgsl"),
     include_str!("../../shaders/math/cardinal.wgsl"),
     include_str!("../../shaders/math/polygamma.wgsl"),
+    include_str!("../../shaders/math/rational.wgsl"),
+    include_str!("../../shaders/math/bessel.wgsl"),
+    include_str!("../../shaders/math/erf.wgsl"),
 );
 
 /// Functions on wide numbers, in terms of the arithmetic of a format, as one text.
@@ -43,6 +46,9 @@ macro_rules! wide {
             include_str!("../../shaders/wide/slope.wgsl"),
             include_str!("../../shaders/wide/cardinal.wgsl"),
             include_str!("../../shaders/wide/polygamma.wgsl"),
+            include_str!("../../shaders/wide/rational.wgsl"),
+            include_str!("../../shaders/wide/bessel.wgsl"),
+            include_str!("../../shaders/wide/erf.wgsl"),
         )
     };
 }

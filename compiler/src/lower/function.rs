@@ -324,15 +324,15 @@ impl Lowering<'_, '_, '_> {
                 Ok(self.math(fun, &args))
             }
             Gpu::Library(name, _) => self.library(name, args.to_vec()),
+            Gpu::Family(name) => {
+                args.extend(self.order(prim));
+                self.library(name, args.to_vec())
+            }
             Gpu::Structural => match prim {
                 Prim::Select => Ok(self.select(&args)),
                 Prim::PowInt(n) => {
                     let n = self.integer(n);
                     self.library("real_powi", vec![args[0], n])
-                }
-                Prim::Polygamma(n) => {
-                    let n = self.integer(n.into());
-                    self.library("real_polygamma", vec![args[0], n])
                 }
                 _ => Err(LowerError::NoForm(table::row(prim).usage)),
             },
@@ -342,6 +342,11 @@ impl Lowering<'_, '_, '_> {
     fn integer(&mut self, n: i32) -> Handle<Expression> {
         self.body
             .declare(Expression::Literal(naga::Literal::I32(n)))
+    }
+
+    /// Which member of its family an operation is.
+    fn order(&mut self, prim: Prim) -> Option<Handle<Expression>> {
+        prim.order().map(|n| self.integer(n.into()))
     }
 
     fn is_quotient(&self, id: Id) -> bool {
@@ -435,16 +440,13 @@ impl Lowering<'_, '_, '_> {
                 let n = self.integer(n);
                 self.library("complex_powi", vec![z, n])
             }
-            (Prim::Polygamma(n), &[z]) => {
-                let n = self.integer(n.into());
-                self.library("complex_polygamma", vec![z, n])
-            }
             _ => {
                 let row = table::row(prim);
                 if row.gpu_complex.is_empty() {
                     return Err(LowerError::NoForm(row.usage));
                 }
-                self.library(row.gpu_complex, args.to_vec())
+                let order = self.order(prim);
+                self.library(row.gpu_complex, args.iter().copied().chain(order).collect())
             }
         }
     }
@@ -593,7 +595,7 @@ fn missing_form(name: &str) -> &'static str {
         .iter()
         .find(|row| {
             row.gpu_complex == name
-                || matches!(row.gpu, Gpu::Library(library, _) if library == name)
+                || matches!(row.gpu, Gpu::Library(own, _) | Gpu::Family(own) if own == name)
         })
         .map_or("a library function", |row| row.usage)
 }

@@ -5,11 +5,14 @@
 //! other evaluator are judged against this one.
 
 pub mod arc;
+pub mod bessel;
 pub mod cardinal;
 pub mod complex;
+pub mod erf;
 pub mod gamma;
 pub mod hash;
 pub mod polygamma;
+pub mod rational;
 pub mod real;
 pub mod slope;
 pub mod wave;

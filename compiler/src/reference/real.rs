@@ -130,6 +130,12 @@ pub fn powi(x: f64, n: i32) -> f64 {
     x.powf(f64::from(n))
 }
 
+/// log(1 + e^x) without overflow.
+pub fn log1pexp(x: f64) -> f64 {
+    let rest = (-x.abs()).exp().ln_1p();
+    if x > 0.0 { x + rest } else { rest }
+}
+
 /// √x, NaN below 0.
 pub fn sqrt(x: f64) -> f64 {
     x.sqrt()

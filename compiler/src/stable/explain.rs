@@ -64,7 +64,7 @@ pub fn explain(
 }
 
 /// One name for each scalar input: `p.x` for a component.
-fn scalar_names(input: &crate::formula::Input) -> Vec<String> {
+pub fn scalar_names(input: &crate::formula::Input) -> Vec<String> {
     match input.ty {
         crate::types::Type::Vector(_) => crate::formula::column_names(&input.name, input.ty),
         _ => vec![input.name.clone()],

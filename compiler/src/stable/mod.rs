@@ -23,6 +23,7 @@ mod remainder;
 mod rule;
 mod sum;
 
+pub(crate) use explain::scalar_names;
 pub use explain::{Explanation, Step, explain};
 pub use pass::{Applied, Stable, stabilise};
 pub use rule::{RULES, Record, Rewrites, Rule};

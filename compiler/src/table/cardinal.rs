@@ -116,7 +116,7 @@ fn far_from_axis(g: &mut Graph, z: Id, part: Prim, along: Id, across: Id) -> Id 
 }
 
 /// (exp z - exprel z)/z, near 0 Σ k zᵏ⁻¹/(k+1)!; right of 0 exprel z + (1 - exprel z)/z, where exp z may overflow.
-fn exprel_partial(g: &mut Graph, args: &[Id], value: Id, _: usize) -> Id {
+pub(super) fn exprel_partial(g: &mut Graph, args: &[Id], value: Id, _: usize) -> Id {
     const TERMS: i32 = 18;
     let z = args[0];
     let factorial = |n: i32| -> f64 { (1..=n).map(f64::from).product() };
@@ -150,7 +150,7 @@ fn odd_series(g: &mut Graph, z: Id, sign: f64) -> Id {
 }
 
 /// A polynomial from its coefficients, that of the highest power first.
-fn horner(g: &mut Graph, z: Id, mut coefficients: impl Iterator<Item = f64>) -> Id {
+pub(super) fn horner(g: &mut Graph, z: Id, mut coefficients: impl Iterator<Item = f64>) -> Id {
     let mut sum = g.real(coefficients.next().unwrap_or(0.0));
     for c in coefficients {
         let product = g.mul(sum, z);

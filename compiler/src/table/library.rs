@@ -17,8 +17,8 @@ pub enum Meaning {
     Both(Prim, Prim),
     /// An integer power; the exponent is the last operand.
     IntegerPower,
-    /// A polygamma function; its order is the last operand.
-    Polygamma,
+    /// An operation of a family; which one is the last operand.
+    Family(Prim),
     /// a², of a real or a complex number.
     Square,
     /// 1/w of a complex number.
@@ -58,8 +58,6 @@ const WRITTEN: &[(&str, Meaning)] = &[
     ("real_max", Meaning::Operation(Prim::Max)),
     ("real_powi", Meaning::IntegerPower),
     ("complex_powi", Meaning::IntegerPower),
-    ("real_polygamma", Meaning::Polygamma),
-    ("complex_polygamma", Meaning::Polygamma),
     ("complex_square", Meaning::Square),
     ("complex_inverse", Meaning::Inverse),
     ("real_scaled_power", Meaning::ScaledPower),
@@ -80,7 +78,11 @@ pub fn meaning(name: &str) -> Option<Meaning> {
         let mut index = FxHashMap::default();
         for row in rows() {
             for name in [library_name(row), row.gpu_complex] {
-                index.insert(name, Meaning::Operation(row.prim));
+                let meaning = match row.prim.order() {
+                    Some(_) => Meaning::Family(row.prim),
+                    None => Meaning::Operation(row.prim),
+                };
+                index.insert(name, meaning);
             }
             let pair = pair(row.prim).filter(|pair| pair.place == 0);
             for (pair, name) in pair.iter().flat_map(|p| [(p, p.gpu), (p, p.gpu_complex)]) {
@@ -96,7 +98,7 @@ pub fn meaning(name: &str) -> Option<Meaning> {
 
 fn library_name(row: &Row) -> &'static str {
     match row.gpu {
-        Gpu::Library(name, _) => name,
+        Gpu::Library(name, _) | Gpu::Family(name) => name,
         _ => "",
     }
 }
@@ -150,8 +152,8 @@ impl Meaning {
             Self::Operation(prim) => [Some(one(prim)?), None],
             Self::Both(first, second) => [Some(one(first)?), Some(one(second)?)],
             Self::IntegerPower => [Some(one(Prim::PowInt(integer))?), None],
-            Self::Polygamma => [
-                Some(one(Prim::Polygamma(u8::try_from(integer).ok()?))?),
+            Self::Family(prim) => [
+                Some(one(prim.with_order(u8::try_from(integer).ok()?))?),
                 None,
             ],
             _ => return None,

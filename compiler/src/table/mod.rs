@@ -11,6 +11,7 @@ mod complex;
 mod derivative;
 mod exponential;
 mod hyperbolic;
+mod integral;
 mod library;
 mod number;
 mod rounding;
@@ -26,6 +27,7 @@ use naga::{BinaryOperator, MathFunction, UnaryOperator};
 use rustc_hash::FxHashMap;
 
 pub use bounds::{Bound, Bounds, Metric, bounds, bounds_of};
+pub use integral::MAX_MOMENT;
 pub use library::{Direct, Meaning, meaning};
 pub use number::Number;
 pub(crate) use slope::direction;
@@ -34,6 +36,7 @@ pub use typing::Typing;
 
 use crate::ir::{Graph, Id, Prim};
 use crate::reference::Complex;
+use crate::reference::bessel::MAX_SPHERICAL;
 
 /// One operation.
 #[derive(Debug)]
@@ -98,6 +101,8 @@ pub enum Gpu {
     Builtin(MathFunction),
     /// A function of the shader math library, and the built-in of the fast tier where there is one.
     Library(&'static str, Option<MathFunction>),
+    /// A function of the shader math library for all of a family, whose last operand says which it is.
+    Family(&'static str),
     /// The lowering writes it out.
     Structural,
 }
@@ -183,6 +188,7 @@ pub fn rows() -> &'static [Row] {
         rows.extend(trigonometric::rows());
         rows.extend(hyperbolic::rows());
         rows.extend(cardinal::rows());
+        rows.extend(integral::rows());
         rows.extend(rounding::rows());
         rows.extend(comparison::rows());
         rows.extend(special::rows());
@@ -206,9 +212,18 @@ pub fn row(prim: Prim) -> &'static Row {
 /// How an operation is differentiated: as its row says, and of a family not beyond its last member.
 #[must_use]
 pub fn derivative(prim: Prim) -> Derivative {
+    if prim.order().is_some_and(|n| n >= last_order(prim)) {
+        return Derivative::Missing;
+    }
+    row(prim).derivative
+}
+
+/// The last member of a family that there is a function for.
+fn last_order(prim: Prim) -> u8 {
     match prim {
-        Prim::Polygamma(n) if n >= MAX_POLYGAMMA => Derivative::Missing,
-        _ => row(prim).derivative,
+        Prim::Polygamma(_) => MAX_POLYGAMMA,
+        Prim::SphericalJ(_) | Prim::SphericalIScaled(_) => MAX_SPHERICAL,
+        _ => integral::MAX_MOMENT,
     }
 }
 
@@ -263,7 +278,7 @@ mod tests {
     fn needed() -> impl Iterator<Item = &'static str> {
         let named = |row: &'static Row| {
             let real = match row.gpu {
-                Gpu::Library(name, _) => name,
+                Gpu::Library(name, _) | Gpu::Family(name) => name,
                 _ => "",
             };
             let both = pair(row.prim).map_or(["", ""], |p| [p.gpu, p.gpu_complex]);
@@ -273,12 +288,10 @@ mod tests {
             "make_infinity",
             "make_nan",
             "real_powi",
-            "real_polygamma",
             "rounded",
             "complex_square",
             "complex_inverse",
             "complex_powi",
-            "complex_polygamma",
         ];
         rows()
             .iter()

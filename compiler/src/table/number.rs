@@ -2,6 +2,7 @@
 
 use super::Row;
 use crate::ir::Prim;
+use crate::reference;
 use crate::reference::complex::{Complex, complex};
 
 /// A value in `f64`.
@@ -57,10 +58,16 @@ type ArgBuffer<T> = smallvec::SmallVec<[T; 4]>;
 fn structural(prim: Prim, operands: &[Number]) -> Option<Number> {
     use Number::{Complex as C, Real as R, Truth as T};
     Some(match (prim, operands) {
-        (Prim::PowInt(n), &[R(x)]) => R(crate::reference::real::powi(x, n)),
+        (Prim::PowInt(n), &[R(x)]) => R(reference::real::powi(x, n)),
         (Prim::PowInt(n), &[C(z)]) => C(z.powi(n)),
-        (Prim::Polygamma(n), &[R(x)]) => R(crate::reference::polygamma::polygamma(n, x)),
+        (Prim::Polygamma(n), &[R(x)]) => R(reference::polygamma::polygamma(n, x)),
         (Prim::Polygamma(n), &[C(z)]) => C(z.polygamma(n)),
+        (Prim::AtanQuotient(n), &[R(x)]) => R(reference::rational::atan_quotient(n, x)),
+        (Prim::Log1pRel(n), &[R(x)]) => R(reference::rational::log1prel(n, x)),
+        (Prim::Log1pRel(n), &[C(z)]) => C(z.log1prel(n)),
+        (Prim::SphericalJ(n), &[R(x)]) => R(reference::bessel::spherical_j(n, x)),
+        (Prim::SphericalIScaled(n), &[R(x)]) => R(reference::bessel::spherical_i_scaled(n, x)),
+        (Prim::Erfcx(n), &[R(x)]) => R(reference::erf::erfcx(n, x)),
         (Prim::Complex, &[R(re), R(im)]) => C(complex(re, im)),
         (Prim::Re, &[C(z)]) => R(z.re),
         (Prim::Im, &[C(z)]) => R(z.im),

@@ -103,7 +103,7 @@ pub fn rows() -> Vec<Row> {
             real: None,
             complex: None,
             derivative: Derivative::Partial(polygamma_partial),
-            gpu: Gpu::Structural,
+            gpu: Gpu::Family("real_polygamma"),
             gpu_complex: "complex_polygamma",
             cost: Weight {
                 real: 60,

@@ -1,6 +1,6 @@
 //! Sums, products, iterations and integrals that are written in another way than ours.
 
-use crate::ast::{BinaryOp, Expr, ExprId, Name, Range};
+use crate::ast::{BinaryOp, Expr, ExprId, Method, Name, Range};
 use crate::cursor::{Node, Opened, Parser};
 use crate::piece::Piece;
 use crate::scope::Form;
@@ -19,7 +19,7 @@ impl Parser<'_> {
         let takes_function =
             matches!(pieces, [Piece::Value(body), ..] if self.is_bare_function(*body));
         let guess = self.guess(pieces).filter(|_| !takes_function);
-        let diagnostic = if form == Form::Integral {
+        let diagnostic = if matches!(form, Form::Integral(_)) {
             let example = guess.unwrap_or_else(|| self.guess_integral(pieces));
             Diagnostic::error(
                 "bad-integral",
@@ -128,7 +128,7 @@ impl Parser<'_> {
         let text = |node: &Node| self.short(node.span);
         let values = values(pieces);
         let Some([body, rest @ ..]) = values.as_deref() else {
-            return Form::Integral.example().to_owned();
+            return Form::Integral(Method::Closed).example().to_owned();
         };
         let is_function = self.is_bare_function(*body);
         let body = format!("{}{}", text(body), if is_function { "(t)" } else { "" });
@@ -142,7 +142,7 @@ impl Parser<'_> {
             [_, lower, upper] if is_function => {
                 format!("{body}, t, {}, {}", text(lower), text(upper))
             }
-            _ => Form::Integral.example().to_owned(),
+            _ => Form::Integral(Method::Closed).example().to_owned(),
         }
     }
 
@@ -170,7 +170,7 @@ impl Parser<'_> {
             return;
         };
         let span = first.name.span.join(self.exprs.span(last.upper));
-        let what = if self.scope.form(&callee.text) == Some(Form::Integral) {
+        let what = if matches!(self.scope.form(&callee.text), Some(Form::Integral(_))) {
             "an expression"
         } else {
             "a term"

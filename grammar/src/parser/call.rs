@@ -27,7 +27,7 @@ impl Parser<'_> {
         let call = match form {
             Some(Form::Series(kind)) => self.series(kind, &callee),
             Some(Form::Iterate) => self.iteration(&callee),
-            Some(Form::Integral) => self.integration(&callee),
+            Some(Form::Integral(method)) => self.integration(method, &callee),
             None => {
                 let mut args = self.arguments(&callee.text);
                 if self.point_follows(&callee, &args) {

@@ -1,6 +1,6 @@
 //! Sums, products, iterations and integrals: calls that name variables of their own.
 
-use crate::ast::{Expr, ExprId, Name, Range, SeriesKind};
+use crate::ast::{Expr, ExprId, Method, Name, Range, SeriesKind};
 use crate::cursor::{Node, Parser};
 use crate::scope::Form;
 use crate::token::TokenKind;
@@ -84,16 +84,23 @@ impl Parser<'_> {
     }
 
     /// `integration = "(" ( running "," expr | expr "," NAME "," expr "," expr ) ")"`
-    pub(crate) fn integration(&mut self, callee: &Name) -> Node {
+    pub(crate) fn integration(&mut self, method: Method, callee: &Name) -> Node {
         let opened = self.open();
         if !self.running_follows() {
             let pieces = self.pieces(&opened);
             return match self.integral_of(&pieces) {
                 Some((body, range)) => {
                     let span = callee.span.join(self.last_span());
-                    self.node(Expr::Integral { body, range }, span)
+                    self.node(
+                        Expr::Integral {
+                            method,
+                            body,
+                            range,
+                        },
+                        span,
+                    )
                 }
-                None => self.foreign_form(Form::Integral, callee, &pieces),
+                None => self.foreign_form(Form::Integral(method), callee, &pieces),
             };
         }
         let range = self.running();
@@ -101,6 +108,13 @@ impl Parser<'_> {
         let body = self.term(callee, std::slice::from_ref(&range), more, &opened);
         self.unbind_names([&range.name]);
         let span = callee.span.join(self.last_span());
-        self.node(Expr::Integral { body, range }, span)
+        self.node(
+            Expr::Integral {
+                method,
+                body,
+                range,
+            },
+            span,
+        )
     }
 }

@@ -1,5 +1,7 @@
 //! `pullback explain`
 
+mod integral;
+
 use std::io::{self, Write};
 
 use clap::{Args, ValueEnum};
@@ -39,6 +41,8 @@ enum Part {
     Gradient,
     /// The value, then the complex derivative
     Derivative,
+    /// The integral of a function of space along a ray
+    Integral,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -89,17 +93,20 @@ pub(super) fn run(arguments: &ExplainArguments, console: &Console) -> Result<(),
     let source = Source::open(&arguments.input, console)?.with_rewrites(arguments.rules);
     let index = source.picture(arguments.which, console)?;
     let picture = &source.program.pictures()[index];
-    let what = match arguments.what {
-        Part::Value => What::Value,
-        Part::Gradient => What::Gradient,
-        Part::Derivative => What::Derivative,
-    };
     let params: Vec<String> = source
         .program
         .params()
         .iter()
         .map(|p| p.name.clone())
         .collect();
+    let what = match arguments.what {
+        Part::Value => What::Value,
+        Part::Gradient => What::Gradient,
+        Part::Derivative => What::Derivative,
+        Part::Integral => {
+            return integral::run(&source, picture, &params, arguments.format, console);
+        }
+    };
     let made = stable::explain(&picture.formula, &params, what);
     let made = made.map_err(|error| vec![error.diagnostic(&picture.formula)]);
     let found = source.expect(made, console)?;

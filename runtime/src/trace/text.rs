@@ -265,7 +265,8 @@ fn collect_calls<'m>(
 /// A function of the shader library by the name of the language's operation that it computes, where there is one.
 fn called(function: &str) -> &str {
     let fits = |row: &&table::Row| {
-        row.gpu_complex == function || matches!(row.gpu, Gpu::Library(name, _) if name == function)
+        row.gpu_complex == function
+            || matches!(row.gpu, Gpu::Library(name, _) | Gpu::Family(name) if name == function)
     };
     table::rows()
         .iter()

@@ -1,66 +1,146 @@
-//! Integrals: their types.
+//! Integrals: `integral(e, t, a, b)` in closed form, `quadrature(e, t, a, b)` numerically.
 
-use pullback_grammar::ast::{ExprId, Range};
-use pullback_grammar::{Diagnostic, Span};
+use pullback_grammar::ast::{ExprId, Method, Range};
+use pullback_grammar::{Diagnostic, Span, print_expr};
+use smallvec::SmallVec;
 
-use crate::check::{Builder, Value};
-use crate::ir::Ty;
+use crate::check::{Builder, Value, shortened};
+use crate::integrate::{Otherwise, Path, Problem, integrate, quadrature};
+use crate::ir::{Id, Prim, Ty};
 use crate::types::Type;
 
+/// Number of steps that an integral counts as among nested loops: as many as a quadrature has panels.
+const STEPS: u32 = 16;
+
+/// An integral as it is written.
+#[derive(Clone, Copy)]
+struct Written<'a> {
+    method: Method,
+    body: ExprId,
+    range: &'a Range,
+    span: Span,
+}
+
 impl<'a> Builder<'a> {
-    /// Checks the types of an integral, which is not there yet.
+    /// The value of a definite integral. The integrand is a number or a vector; ends are real.
     pub(in crate::check) fn integral(
         &mut self,
+        method: Method,
         body: ExprId,
         range: &'a Range,
         span: Span,
     ) -> Value {
-        let mut fits = true;
-        for (end, which) in [(range.lower, "lower"), (range.upper, "upper")] {
-            let value = self.expr(end);
-            match value.ty(&self.graph) {
-                Some(Type::Real) => {}
-                Some(found) => {
-                    fits = false;
-                    let message = format!(
-                        "the {which} end of an integral is a real number, and this is {}",
-                        found.in_words()
-                    );
-                    let problem = Diagnostic::error("type-mismatch", self.span(end), message)
-                        .with_label(format!("this is {}", found.in_words()));
-                    let hint = self.advice_at(found, false, self.span(end));
-                    self.report(problem.with_hint(hint));
-                }
-                None => fits = false,
-            }
-        }
-        let variable = Value::Scalar(self.graph.new_variable(Ty::Real));
+        let written = Written {
+            method,
+            body,
+            range,
+            span,
+        };
+        let ends = self.ends(range);
+        let leaf = self.graph.new_variable(Ty::Real);
+        self.graph.set_name(leaf, &range.name.text);
+        let before = self.nesting.enter(STEPS);
         let depth = self.scope.len();
-        self.scope.push(&range.name.text, variable);
+        self.scope.push(&range.name.text, Value::Scalar(leaf));
         let value = self.expr(body);
         self.scope.truncate(depth);
-        match value.ty(&self.graph) {
-            Some(Type::Bool) => {
-                let problem = Diagnostic::error(
-                    "type-mismatch",
-                    self.span(body),
-                    "a condition has no integral",
-                );
-                let shown =
-                    crate::check::shortened(&pullback_grammar::print_expr(&self.file.exprs, body));
-                self.report(
-                    problem.with_hint(format!("integrate a number: `if {shown} then 1 else 0`")),
-                )
-            }
-            Some(_) if fits => {
-                let message = "integrals are not available in this version";
-                self.report(
-                    Diagnostic::error("not-yet", span, message)
-                        .with_label("reserved for a later version")
-                        .with_hint("write the integral in closed form"),
-                )
-            }
+        self.nesting.leave(STEPS, before);
+        match (value.ty(&self.graph), ends) {
+            (Some(Type::Bool), _) => self.no_condition(body),
+            (Some(_), Some(ends)) => self.integral_of(written, &value, leaf, ends),
             _ => Value::Error,
         }
+    }
+
+    /// The ends, where both are real numbers.
+    fn ends(&mut self, range: &Range) -> Option<(Id, Id)> {
+        let mut found: SmallVec<[Id; 2]> = SmallVec::new();
+        for (end, which) in [(range.lower, "lower"), (range.upper, "upper")] {
+            let value = self.expr(end);
+            match (value.ty(&self.graph), &value) {
+                (Some(Type::Real), Value::Scalar(id)) => found.push(*id),
+                (Some(other), _) => {
+                    let message = format!(
+                        "the {which} end of an integral is a real number, and this is {}",
+                        other.in_words()
+                    );
+                    let problem = Diagnostic::error("type-mismatch", self.span(end), message)
+                        .with_label(format!("this is {}", other.in_words()));
+                    let hint = self.advice_at(other, false, self.span(end));
+                    self.report(problem.with_hint(hint));
+                }
+                (None, _) => {}
+            }
+        }
+        match *found.as_slice() {
+            [a, b] => Some((a, b)),
+            _ => None,
+        }
+    }
+
+    fn no_condition(&mut self, body: ExprId) -> Value {
+        let problem = Diagnostic::error(
+            "type-mismatch",
+            self.span(body),
+            "a condition has no integral",
+        );
+        let shown = shortened(&print_expr(&self.file.exprs, body));
+        self.report(problem.with_hint(format!("integrate a number: `if {shown} then 1 else 0`")))
+    }
+
+    fn integral_of(&mut self, written: Written, value: &Value, leaf: Id, ends: (Id, Id)) -> Value {
+        let path = Path::of_variable(&mut self.graph, leaf, ends.0, ends.1);
+        let mut results: SmallVec<[Id; 4]> = SmallVec::new();
+        for id in value.ids() {
+            let result = if self.graph.ty(id) == Ty::Complex {
+                let parts = [Prim::Re, Prim::Im].map(|part| self.graph.apply(part, &[id]));
+                let re = self.real_integral(written, parts[0], &path);
+                let im = re.and_then(|re| Ok((re, self.real_integral(written, parts[1], &path)?)));
+                im.map(|(re, im)| self.graph.apply(Prim::Complex, &[re, im]))
+            } else {
+                self.real_integral(written, id, &path)
+            };
+            match result {
+                Ok(result) => results.push(result),
+                Err(problem) => return self.no_closed_form(written, &problem),
+            }
+        }
+        let cost = u64::from(STEPS) * 2;
+        if let Some(constants) = self.folding.fold(&mut self.graph, &results, cost) {
+            results = constants;
+        }
+        value.with_ids(&results)
+    }
+
+    fn real_integral(&mut self, written: Written, root: Id, path: &Path) -> Result<Id, Problem> {
+        match written.method {
+            Method::Closed => {
+                integrate(&mut self.graph, root, path, Otherwise::Refuse).map(|i| i.value)
+            }
+            Method::Quadrature => quadrature(&mut self.graph, root, path),
+        }
+    }
+
+    fn no_closed_form(&mut self, written: Written, problem: &Problem) -> Value {
+        let Range { name, lower, upper } = written.range;
+        let exprs = &self.file.exprs;
+        let [body, a, b] = [written.body, *lower, *upper].map(|e| shortened(&print_expr(exprs, e)));
+        let is_known = problem.span != Span::default();
+        let place = if is_known { problem.span } else { written.span };
+        let message = if problem.reason.is_proven() {
+            "this integral has no elementary closed form"
+        } else {
+            "no closed form of this integral is known here"
+        };
+        let mut diagnostic = Diagnostic::error("no-closed-form", place, message)
+            .with_label(problem.reason.in_words());
+        if place != written.span {
+            diagnostic = diagnostic.with_related(written.span, "in this integral");
+        }
+        if written.method == Method::Closed {
+            let call = format!("quadrature({body}, {}, {a}, {b})", shortened(&name.text));
+            diagnostic = diagnostic.with_hint(format!("`{call}` computes it numerically"));
+        }
+        self.report(diagnostic)
     }
 }

@@ -43,7 +43,7 @@ pub(super) enum Kind {
     Integral,
 }
 
-static OPERATORS: [Operator; 11] = [
+static OPERATORS: [Operator; 12] = [
     Operator {
         name: "",
         usage: "f'(x), f''(x)",
@@ -118,7 +118,14 @@ static OPERATORS: [Operator; 11] = [
         name: "integral",
         usage: "integral(e, t, a, b), integral(t in a..b, e)",
         takes: "real, complex, vectors",
-        doc: "definite integral; not available in this version",
+        doc: "definite integral by the real t from a to b, in closed form",
+        kind: Kind::Integral,
+    },
+    Operator {
+        name: "quadrature",
+        usage: "quadrature(e, t, a, b), quadrature(t in a..b, e)",
+        takes: "real, complex, vectors",
+        doc: "definite integral by a fixed rule of 96 points on each piece between changes of conditions",
         kind: Kind::Integral,
     },
 ];

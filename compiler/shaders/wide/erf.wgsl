@@ -1,0 +1,231 @@
+// The error function and its kin. e^(x²) iⁿerfc x (DLMF 7.18) are one family, in which each is a derivative of the one
+// before. The mass of a Gaussian in an interval is a difference of two, or a quadrature where that would cancel.
+
+/// e^(-x²), or e^(x²); the rounding of the square does not count. |x| ≤ 30.
+fn exp_of_square(x: real, falls: bool) -> real {
+    let square = long_product(x, x);
+    let e = real_exp(flip_if(square.hi, falls));
+    return real_add(e, real_mul(e, flip_if(square.lo, falls)));
+}
+
+/// e^(-x²)
+fn real_gauss(x: real) -> real {
+    if is_nan(x) {
+        return x;
+    }
+    return exp_of_square(clamped(real_abs(x), 30.0), true);
+}
+
+/// 2/√π
+fn two_by_root_pi() -> real {
+    return lit(1.1283792, -5.8635383e-08, -6.5079834e-16);
+}
+
+/// √π/2
+fn half_root_pi() -> real {
+    return lit(0.88622695, -2.66232e-08, -5.9344446e-16);
+}
+
+/// erf x for |x| ≤ 1/2 by its power series (DLMF 7.6.1).
+fn erf_near(x: real) -> real {
+    let z = real_neg(real_square(x));
+    var sum = num(1.0);
+    for (var k = 14; k > 0; k--) {
+        sum = add32(real_mul(real_div(mul32(z, f32(2 * k - 1)), num(f32(k * (2 * k + 1)))), sum), 1.0);
+    }
+    return real_mul(real_mul(x, two_by_root_pi()), sum);
+}
+
+/// erfc x for x ≥ 1/2.
+fn erfc_right(x: real) -> real {
+    let a = clamped(x, 30.0);
+    return real_mul(exp_of_square(a, true), erfcx_right(a));
+}
+
+/// erf x.
+fn real_erf(x: real) -> real {
+    let a = real_abs(x);
+    if is_nan(x) {
+        return x;
+    }
+    if is_below(a, 0.5) {
+        return erf_near(x);
+    }
+    return with_sign(add32(real_neg(erfc_right(a)), 1.0), x);
+}
+
+/// erfc x = 1 - erf x, to the last digits also where it is small.
+fn real_erfc(x: real) -> real {
+    if is_nan(x) {
+        return x;
+    }
+    let a = real_abs(x);
+    if is_below(a, 0.5) {
+        return add32(real_neg(erf_near(x)), 1.0);
+    }
+    let right = erfc_right(a);
+    return choose(sign_is_set(x), add32(real_neg(right), 2.0), right);
+}
+
+/// Chebyshev coefficients of (1 + 2 x) e^(x²) erfc x in (x - 3)/(x + 3), the first halved; special.py.
+fn erfcx_coefficient(k: i32) -> real {
+    switch k {
+        case 0: { return lit(1.1775626, -2.0217197e-08, -4.723702e-16); }
+        case 1: { return lit(0.0053539043, 2.1037536e-10, -1.3538444e-18); }
+        case 2: { return lit(-0.0937755, -8.545882e-11, 3.3143051e-19); }
+        case 3: { return lit(0.054366525, 2.94849e-10, -8.83486e-18); }
+        case 4: { return lit(-0.018976597, 4.0755224e-10, 3.98133e-18); }
+        case 5: { return lit(0.004453426, -1.6551083e-10, 5.2176043e-18); }
+        case 6: { return lit(-0.0006335532, 2.3292455e-11, -4.3053931e-19); }
+        case 7: { return lit(1.766172e-05, -1.6147562e-14, -4.1604623e-22); }
+        case 8: { return lit(1.2841533e-05, -2.7057653e-13, 1.2795825e-21); }
+        case 9: { return lit(-2.0072287e-06, 9.293419e-14, 2.6314061e-21); }
+        case 10: { return lit(-1.8075228e-07, 1.656995e-15, 2.9568267e-23); }
+        case 11: { return lit(7.5498285e-08, -1.518863e-15, 3.5847856e-23); }
+        case 12: { return lit(1.8856685e-09, 1.3617692e-17, 2.871011e-25); }
+        case 13: { return lit(-2.699519e-09, 2.9459514e-18, -7.589172e-26); }
+        case 14: { return lit(-1.4600791e-11, -1.3426912e-19, -1.4625987e-27); }
+        case 15: { return lit(1.03616074e-10, 4.0694027e-19, -5.8566047e-27); }
+        case 16: { return lit(1.4757159e-12, 5.131496e-20, -2.561724e-28); }
+        case 17: { return lit(-4.27734e-12, 1.3499505e-19, -9.913099e-28); }
+        case 18: { return lit(-2.0792249e-13, -3.4853635e-21, 1.4579544e-28); }
+        case 19: { return lit(1.8134501e-13, 5.258832e-21, -1.1851921e-30); }
+        case 20: { return lit(1.973425e-14, 4.3002264e-22, 2.3404895e-29); }
+        case 21: { return lit(-7.28795e-15, -2.3689061e-22, 6.504922e-30); }
+        case 22: { return lit(-1.5169959e-15, 5.0660117e-23, 5.0044387e-31); }
+        case 23: { return lit(2.3513203e-16, -2.0677376e-24, 8.4511726e-32); }
+        case 24: { return lit(1.00050976e-16, 3.1861116e-24, 3.8128214e-32); }
+        case 25: { return lit(-2.0683378e-18, 7.123465e-27, 2.4164123e-34); }
+        case 26: { return lit(-5.6205334e-18, -1.3539344e-25, 4.935903e-33); }
+        default: { return num(0.0); }
+    }
+}
+
+/// e^(x²) erfc x for x ≥ 0 by Clenshaw's recurrence (the form of Shepherd and Laframboise, "Chebyshev approximation of
+/// (1 + 2x) exp(x²) erfc x", Math. Comp. 36, 1981).
+fn erfcx_right(x: real) -> real {
+    if is_above(x, 1e10) {
+        return real_div(lit(0.5641896, -2.9317691e-08, -3.2539917e-16), x);
+    }
+    let y = real_div(add32(x, -3.0), add32(x, 3.0));
+    let double = twice(y);
+    var sum = num(0.0);
+    var last = num(0.0);
+    for (var k = 26; k > 0; k--) {
+        let next = real_add(real_sub(real_mul(double, sum), last), erfcx_coefficient(k));
+        last = sum;
+        sum = next;
+    }
+    let p = real_add(real_sub(real_mul(y, sum), last), erfcx_coefficient(0));
+    return real_div(p, add32(twice(x), 1.0));
+}
+
+/// e^(x²) iⁿerfc x, n ≤ 7: for n = 0 the scaled complementary error function. From n = 1, x = 1 on by the continued fraction of
+/// the recurrence DLMF 7.18.7, downwards, else by the recurrence upwards.
+fn real_erfcx(x: real, n: i32) -> real {
+    if is_nan(x) {
+        return x;
+    }
+    if n > 0 && !is_below(x, 1.0) {
+        return repeated_right(x, n);
+    }
+    let a = real_abs(x);
+    var value = erfcx_right(a);
+    if sign_is_set(x) {
+        if is_above(a, 30.0) {
+            return make_infinity(num(1.0));
+        }
+        value = real_sub(twice(exp_of_square(a, false)), value);
+    }
+    var last = two_by_root_pi();
+    for (var k = 0; k < n; k++) {
+        let next = real_div(real_sub(last, twice(real_mul(x, value))), num(f32(2 * k + 2)));
+        last = value;
+        value = next;
+    }
+    return value;
+}
+
+/// The same for x ≥ 1: f(k)/f(k-1) = 1/(2 x + 2 (k + 1) f(k+1)/f(k)), from an index where it hardly matters.
+fn repeated_right(x: real, n: i32) -> real {
+    let far = is_above(x, 1e15);
+    let y = clamped(x, 1e15);
+    let y32 = real_to_f32(y);
+    let end = n + 10 + i32(100.0 / (y32 * y32));
+    var ratio = num(1.0 / (y32 + sqrt(y32 * y32 + 2.0 * f32(end))));
+    var value = two_by_root_pi();
+    for (var k = end - 1; k >= 0; k--) {
+        ratio = real_div(num(0.5), real_add(y, mul32(ratio, f32(k + 1))));
+        if k <= n {
+            value = real_mul(value, ratio);
+        }
+    }
+    return choose(far, num(0.0), value);
+}
+
+/// Nodes and weights on the right of Gauss and Legendre's rule of 12 points (DLMF 3.5.v); special.py.
+fn gauss_node(k: i32) -> RealPair {
+    switch k {
+        case 0: { return RealPair(lit(0.98156065, -1.3240921e-08, 1.1815649e-16), lit(0.047175337, -2.4264046e-10, -7.5018614e-18)); }
+        case 1: { return RealPair(lit(0.9041172, 2.9769827e-08, 3.9199004e-16), lit(0.10693932, 2.7488394e-09, 1.8194954e-17)); }
+        case 2: { return RealPair(lit(0.76990265, 2.7652709e-08, 6.606364e-16), lit(0.16007833, -3.2847711e-09, -2.250098e-17)); }
+        case 3: { return RealPair(lit(0.58731794, 1.0713619e-08, 7.539047e-17), lit(0.20316742, 3.117147e-09, 5.249505e-17)); }
+        case 4: { return RealPair(lit(0.3678315, 6.137045e-10, 9.618137e-18), lit(0.23349254, -1.7945844e-09, 3.0807875e-17)); }
+        default: { return RealPair(lit(0.12523341, -3.2774714e-09, -1.08832133e-16), lit(0.24914704, 3.1813e-09, -7.149504e-17)); }
+    }
+}
+
+/// ∫ e^(-u²) du over [c - w, c + w], over the greatest value of e^(-u²) there, 0 ≤ w ≤ c. Where the ends differ enough the
+/// difference of erfcx, else Gauss and Legendre's rule: u² - (c - w)² = (u - c + w)(u + c - w).
+fn tail_mass(c: real, w: real) -> real {
+    let steepness = scale(real_mul(c, w), 2);
+    if is_above(steepness, 2.0) {
+        let far = real_mul(real_exp(real_neg(steepness)), erfcx_right(real_add(c, w)));
+        return real_mul(half_root_pi(), real_sub(erfcx_right(real_sub(c, w)), far));
+    }
+    var sum = num(0.0);
+    for (var k = 0; k < 12; k++) {
+        let node = gauss_node(k >> 1u);
+        let s = flip_if(node.first, (k & 1) == 0);
+        let first = real_mul(w, add32(s, 1.0));
+        let second = real_add(twice(c), real_mul(w, add32(s, -1.0)));
+        sum = real_add(sum, real_mul(node.second, real_exp(real_neg(real_mul(first, second)))));
+    }
+    return real_mul(w, sum);
+}
+
+/// The integral of e^(-u²) over the interval with centre c and half-width w. Odd in w.
+fn real_gauss_mass(c: real, w: real) -> real {
+    let a = real_abs(c);
+    let b = real_abs(w);
+    if is_nan(c) || is_nan(w) || real_less(a, b) {
+        return real_gauss_mass_scaled(c, w);
+    }
+    // the rounding of c - w matters in the exponent
+    let near = long_sum(a, real_neg(b));
+    if is_above(near.hi, 29.0) {
+        return with_sign(num(0.0), w);
+    }
+    let correction = add32(real_neg(twice(real_mul(near.hi, near.lo))), 1.0);
+    let size = real_mul(real_mul(tail_mass(a, b), real_gauss(near.hi)), correction);
+    return with_sign(size, w);
+}
+
+/// The same, divided by the greatest value of e^(-u²) in the interval.
+fn real_gauss_mass_scaled(c: real, w: real) -> real {
+    let a = real_abs(c);
+    let b = real_abs(w);
+    if is_nan(c) || is_nan(w) || is_infinite(c) && is_infinite(w) {
+        return make_nan(c);
+    }
+    if !real_less(a, b) {
+        return with_sign(tail_mass(a, b), w);
+    }
+    return with_sign(real_mul(half_root_pi(), real_add(real_erf(real_add(b, a)), real_erf(real_sub(b, a)))), w);
+}
+
+/// log(1 + e^x) without overflow: x + log1p(e^-x) right of 0.
+fn real_log1pexp(x: real) -> real {
+    let rest = real_log1p(real_exp(real_neg(real_abs(x))));
+    return choose(sign_is_set(x), rest, real_add(x, rest));
+}

@@ -1,0 +1,367 @@
+//! Cutting the interval where conditions change.
+
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+
+use super::arithmetic::{call, if_less, mul, scale, square, sub};
+use super::path::cone;
+use super::term::Factor;
+use super::{Integrator, Problem, Reason};
+use crate::ir::{Id, Loop, Op, Prim, State, Ty};
+
+/// Greatest number of places where the conditions of one integrand may change along a line.
+pub const MAX_BREAKS: usize = 32;
+/// Greatest number of forms that what a condition compares may take by other conditions in it.
+const MAX_FORMS: usize = 16;
+
+/// How a piece is integrated, given the integrand without its conditions.
+type OnPiece<'g> = fn(&mut Integrator<'g>, Id) -> Result<Id, Problem>;
+
+impl<'g> Integrator<'g> {
+    /// The places where conditions of an expression may change, as values of s; what is not a number or is outside of
+    /// the interval is none. There may be more places than changes: cutting there does no harm.
+    ///
+    /// # Errors
+    /// A condition compares something else than polynomials of degree 2 or less and lengths, or there are too many.
+    pub(super) fn cuts(&mut self, root: Id) -> Result<Vec<Id>, Problem> {
+        let mut forms: FxHashMap<Id, Vec<Id>> = FxHashMap::default();
+        let mut zeros: Vec<Id> = Vec::new();
+        for (node, a, b) in self.conditions(root) {
+            let left = self.forms(a, &mut forms)?;
+            let right = match b {
+                Some(b) => self.forms(b, &mut forms)?,
+                None => vec![self.g.real(0.0)],
+            };
+            for &a in &left {
+                for &b in &right {
+                    let zero = self.difference(a, b);
+                    if !zeros.contains(&zero) {
+                        zeros.push(zero);
+                    }
+                    if zeros.len() > MAX_BREAKS {
+                        return Err(self.problem(node, Reason::Bound("conditions", MAX_BREAKS)));
+                    }
+                }
+            }
+        }
+        let mut cuts = Vec::new();
+        for zero in zeros {
+            self.zeros(zero, &mut cuts)?;
+        }
+        cuts.dedup();
+        if cuts.len() > MAX_BREAKS {
+            return Err(self.problem(root, Reason::Bound("breakpoints", MAX_BREAKS)));
+        }
+        Ok(cuts)
+    }
+
+    /// What changes its form where a difference of two expressions (or one expression) is 0, in order. Polynomials
+    /// have none, whatever they are written with.
+    fn conditions(&mut self, root: Id) -> Vec<(Id, Id, Option<Id>)> {
+        let mut seen = rustc_hash::FxHashSet::default();
+        let mut stack = vec![root];
+        let mut out = Vec::new();
+        while let Some(id) = stack.pop() {
+            let is_truth = self.g.ty(id) == Ty::Bool;
+            if !seen.insert(id) || !self.moves(id) || !is_truth && self.degree(id).is_some() {
+                continue;
+            }
+            let node = self.g.node(id).clone();
+            let Op::Apply(prim) = node.op else { continue };
+            match (prim, node.args.as_slice()) {
+                (Prim::Abs | Prim::Sign, &[a]) if self.g.ty(a) == Ty::Real => {
+                    out.push((id, a, None))
+                }
+                (
+                    Prim::Min
+                    | Prim::Max
+                    | Prim::Less
+                    | Prim::LessEqual
+                    | Prim::Equal
+                    | Prim::NotEqual,
+                    &[a, b],
+                ) if self.g.ty(a) == Ty::Real && self.g.ty(b) == Ty::Real => {
+                    out.push((id, a, Some(b)))
+                }
+                _ => {}
+            }
+            stack.extend(node.args.iter().copied());
+        }
+        out.sort_unstable();
+        out
+    }
+
+    /// Every form without conditions that an expression may have.
+    fn forms(&mut self, root: Id, known: &mut FxHashMap<Id, Vec<Id>>) -> Result<Vec<Id>, Problem> {
+        for id in cone(self.g, &[root]) {
+            if known.contains_key(&id) {
+                continue;
+            }
+            let node = self.g.node(id).clone();
+            if !self.moves(id) || node.ty != Ty::Real {
+                known.insert(id, vec![id]);
+                continue;
+            }
+            let of = |k: usize| {
+                known
+                    .get(&node.args[k])
+                    .cloned()
+                    .unwrap_or_else(|| vec![node.args[k]])
+            };
+            let mut forms = match node.op {
+                Op::Apply(Prim::Abs) => {
+                    let mut both = of(0);
+                    let turned: Vec<Id> = both.iter().map(|&a| self.g.neg(a)).collect();
+                    both.extend(turned);
+                    both
+                }
+                Op::Apply(Prim::Sign) => [-1.0, 1.0].map(|v| self.g.real(v)).to_vec(),
+                Op::Apply(Prim::Min | Prim::Max) => [of(0), of(1)].concat(),
+                Op::Apply(Prim::Select) => [of(1), of(2)].concat(),
+                Op::Apply(prim) => {
+                    let mut lists: Vec<SmallVec<[Id; 3]>> = vec![SmallVec::new()];
+                    for k in 0..node.args.len() {
+                        let choices = of(k);
+                        lists = lists
+                            .iter()
+                            .flat_map(|list| {
+                                choices.iter().map(move |&c| {
+                                    let mut longer = list.clone();
+                                    longer.push(c);
+                                    longer
+                                })
+                            })
+                            .take(MAX_FORMS + 1)
+                            .collect();
+                    }
+                    lists.iter().map(|list| self.g.apply(prim, list)).collect()
+                }
+                _ => vec![id],
+            };
+            forms.sort_unstable();
+            forms.dedup();
+            if forms.len() > MAX_FORMS {
+                return Err(self.problem(
+                    id,
+                    Reason::Bound("forms of what a condition compares", MAX_FORMS),
+                ));
+            }
+            known.insert(id, forms);
+        }
+        Ok(known.get(&root).cloned().unwrap_or_else(|| vec![root]))
+    }
+
+    /// The zeros of a form.
+    fn zeros(&mut self, of: Id, out: &mut Vec<Id>) -> Result<(), Problem> {
+        match self.degree(of) {
+            Some(0) => {}
+            Some(1) => {
+                let cut = self.zero_of_affine(of);
+                out.push(cut);
+            }
+            Some(2) => {
+                let cuts = self.zeros_of_quadratic(of);
+                out.extend(cuts);
+            }
+            _ => match self.without_roots(of) {
+                Some(polynomial) if polynomial != of => self.zeros(polynomial, out)?,
+                _ => return Err(self.problem(of, Reason::Condition)),
+            },
+        }
+        Ok(())
+    }
+
+    /// For u + k √q with u of degree 0 or 1: the polynomial k² q - u². For k √q - m √r: k² q - m² r. They are 0 wherever
+    /// the expression is.
+    fn without_roots(&mut self, of: Id) -> Option<Id> {
+        let terms = self.expand(of).ok()?;
+        let mut roots = Vec::new();
+        let mut rest = self.g.real(0.0);
+        for term in &terms {
+            if !term.guards.is_empty() {
+                return None;
+            }
+            match term.factors.as_slice() {
+                &[Factor::Power(base, half)] if self.g.as_real(half) == Some(0.5) => {
+                    let weight = square(self.g, term.coefficient);
+                    roots.push(mul(self.g, weight, base));
+                }
+                [] | [Factor::Polynomial(_)] => {
+                    let part = term.integrand(self.g);
+                    rest = super::arithmetic::add(self.g, rest, part);
+                }
+                _ => return None,
+            }
+        }
+        let other = match *roots.as_slice() {
+            [_] => square(self.g, rest),
+            [_, other] if super::arithmetic::is_zero(self.g, rest) => other,
+            _ => return None,
+        };
+        let polynomial = sub(self.g, roots[0], other);
+        self.degree(polynomial)
+            .is_some_and(|d| d <= 2)
+            .then_some(polynomial)
+    }
+
+    /// -u/u' where that is inside of the interval: |u| < |u' h|, so that the quotient is less than |h|.
+    fn zero_of_affine(&mut self, of: Id) -> Id {
+        let u = self.affine(of);
+        let half = self.path.half;
+        let reach = mul(self.g, u.slope, half);
+        let ratio = self.g.div(u.mid, reach);
+        let back = self.g.neg(half);
+        let place = self.g.mul(back, ratio);
+        let sizes = [u.mid, reach].map(|x| call(self.g, Prim::Abs, x));
+        let nowhere = self.g.real(f64::NAN);
+        if_less(self.g, sizes[0], sizes[1], place, nowhere)
+    }
+
+    /// The zeros of a s² + 2 b s + c: with r = -(b ± √(b² - a c)), the sign that of b, they are r/a and c/r.
+    ///
+    /// Press et al., Numerical Recipes, 3rd edition, section 5.6.
+    fn zeros_of_quadratic(&mut self, of: Id) -> [Id; 2] {
+        let q = self.quadratic(of);
+        let zero = self.g.real(0.0);
+        let inside = self.g.neg(q.discriminant);
+        let root = call(self.g, Prim::Sqrt, inside);
+        let back = self.g.neg(root);
+        let root = if_less(self.g, q.b, zero, back, root);
+        let sum = self.g.add(q.b, root);
+        let r = self.g.neg(sum);
+        [self.g.div(r, q.a), self.g.div(q.c, r)]
+    }
+
+    /// The integral as the sum over the pieces between the cuts, by a loop that goes from one cut to the next; with one
+    /// cut, both pieces side by side.
+    pub(super) fn piecewise(
+        &mut self,
+        root: Id,
+        cuts: &[Id],
+        on_piece: OnPiece<'g>,
+    ) -> Result<Id, Problem> {
+        let whole = self.path.clone();
+        let reach = call(self.g, Prim::Abs, whole.half);
+        let start = self.g.neg(reach);
+        let total = if let &[cut] = cuts {
+            let place = self.next_cut(start, &[cut], reach);
+            let left = self.piece(root, start, place, on_piece)?;
+            let known = (self.parts.len(), self.numerical.len());
+            self.path.clone_from(&whole);
+            let right = self.piece(root, place, reach, on_piece)?;
+            self.parts.truncate(known.0);
+            self.numerical.truncate(known.1);
+            self.g.add(left, right)
+        } else {
+            self.walk(root, cuts, (start, reach), on_piece)?
+        };
+        self.path = whole;
+        let sign = call(self.g, Prim::Sign, self.path.half);
+        Ok(self.g.mul(sign, total))
+    }
+
+    fn walk(
+        &mut self,
+        root: Id,
+        cuts: &[Id],
+        (start, reach): (Id, Id),
+        on_piece: OnPiece<'g>,
+    ) -> Result<Id, Problem> {
+        let binder = self.g.binder();
+        let (place, sum) = (
+            self.g.new_state(binder, Ty::Real),
+            self.g.new_state(binder, Ty::Real),
+        );
+        let next = self.next_cut(place, cuts, reach);
+        let piece = self.piece(root, place, next, on_piece)?;
+        let longer = self.g.add(sum, piece);
+        let zero = self.g.real(0.0);
+        let pieces = u32::try_from(cuts.len() + 1).unwrap_or(u32::MAX);
+        let repeated = Loop {
+            binder,
+            count: self.g.real(f64::from(pieces)),
+            limit: pieces,
+            until: Some(self.g.apply(Prim::LessEqual, &[reach, place])),
+            states: [(place, start, next), (sum, zero, longer)]
+                .map(|(leaf, init, next)| State { leaf, init, next })
+                .into_iter()
+                .collect(),
+        };
+        let repeated = self.g.repeat(&repeated);
+        Ok(self.g.result(repeated, sum))
+    }
+
+    /// The first cut beyond a place, or the end.
+    fn next_cut(&mut self, place: Id, cuts: &[Id], end: Id) -> Id {
+        let mut next = end;
+        for &cut in cuts {
+            let beyond = if_less(self.g, place, cut, cut, end);
+            next = self.g.apply(Prim::Min, &[next, beyond]);
+        }
+        next
+    }
+
+    /// The integral from s = a to s = b, where conditions do not change.
+    fn piece(&mut self, root: Id, a: Id, b: Id, on_piece: OnPiece<'g>) -> Result<Id, Problem> {
+        let (sum, width) = (self.g.add(a, b), self.g.sub(b, a));
+        let (middle, half) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, width));
+        let whole = self.path.clone();
+        self.path = whole.part(self.g, middle, half);
+        let decided = self.decided(root);
+        let value = on_piece(self, decided);
+        self.path = whole;
+        value
+    }
+
+    /// A condition or a sign in the middle of the path.
+    fn decide(&mut self, id: Id) -> Id {
+        let decided = self.at_middle(id);
+        self.written.insert(decided, id);
+        decided
+    }
+
+    /// The first where a < b in the middle of the path, else the second.
+    fn decided_choice(&mut self, (a, b): (Id, Id), then: Id, otherwise: Id) -> Id {
+        let condition = self.g.apply(Prim::Less, &[a, b]);
+        let decided = self.decide(condition);
+        self.g.apply(Prim::Select, &[decided, then, otherwise])
+    }
+
+    /// The expression with every condition decided in the middle of the path.
+    fn decided(&mut self, root: Id) -> Id {
+        let mut map: FxHashMap<Id, Id> = FxHashMap::default();
+        for id in cone(self.g, &[root]) {
+            let node = self.g.node(id).clone();
+            let Op::Apply(prim) = node.op else { continue };
+            if !self.moves(id) || node.ty != Ty::Bool && self.degree(id).is_some() {
+                continue;
+            }
+            let args: SmallVec<[Id; 3]> = node
+                .args
+                .iter()
+                .map(|a| map.get(a).copied().unwrap_or(*a))
+                .collect();
+            let is_real = node.args.iter().all(|&a| self.g.ty(a) == Ty::Real);
+            let new = match prim {
+                Prim::Sign | Prim::Less | Prim::LessEqual | Prim::Equal | Prim::NotEqual
+                    if is_real =>
+                {
+                    self.decide(id)
+                }
+                Prim::Abs if is_real => {
+                    let zero = self.g.real(0.0);
+                    let turned = self.g.neg(args[0]);
+                    self.decided_choice((node.args[0], zero), turned, args[0])
+                }
+                Prim::Min | Prim::Max if is_real => {
+                    let (a, b) = (node.args[0], node.args[1]);
+                    let (low, high) = if prim == Prim::Min { (a, b) } else { (b, a) };
+                    self.decided_choice((low, high), args[0], args[1])
+                }
+                _ => self.g.apply(prim, &args),
+            };
+            map.insert(id, new);
+        }
+        map.get(&root).copied().unwrap_or(root)
+    }
+}

@@ -1,0 +1,447 @@
+//! Exponentials and waves of what changes evenly, their products, and those with polynomials.
+
+use std::collections::BTreeMap;
+
+use smallvec::SmallVec;
+
+use super::arithmetic::{add, call, if_less, mul, scale, sub, total};
+use super::legendre::nodes_for_exponential;
+use super::quadratic::Affine;
+use super::rule::Rule;
+use super::term::{Factor, Term};
+use super::{Integrator, Problem, Reason};
+use crate::ir::{Id, Prim};
+
+/// Greatest degree of a polynomial beside an exponential or a wave.
+pub const MAX_DEGREE_BESIDE: u32 = 16;
+
+/// What the branches of a rule that uses Gauss-Legendre nodes on short intervals are right to.
+pub(super) const NEAR: f64 = 1e-12;
+
+/// A whole multiple of each phase.
+type Phases = SmallVec<[(Id, i32); 4]>;
+
+/// Σ of waves of sums of phases; the key is the wave and its phases.
+type Waves = BTreeMap<(bool, Vec<(Id, i32)>), f64>;
+
+/// e^exponent times one wave.
+#[derive(Clone, Debug)]
+struct Wave {
+    scale: f64,
+    exponent: Option<Affine>,
+    /// sin, cos, sinh or cosh.
+    wave: Option<(Prim, Affine)>,
+}
+
+impl Integrator<'_> {
+    /// ∫ of an exponential, waves and a polynomial.
+    ///
+    /// One exponential: 2h e^(α + |βh|) φ(-2|βh|) with φ(x) = (eˣ - 1)/x. One wave: 2h sinc(δh) sin(γ). Products of waves
+    /// become sums (NIST DLMF 4.21(ii), 4.35(ii)); where all phases together change by no more than 1 each, nodes
+    /// of Gauss and Legendre take the integrand as it is, so that nothing cancels near a common zero. With a polynomial
+    /// repeated integration by parts from both ends (NIST DLMF 4.10(i), 4.26(ii)), and nodes where the exponent
+    /// changes by less than the degree and 2.
+    pub(super) fn exponential(&mut self, term: &Term) -> Result<(Id, Rule), Problem> {
+        let parts = Parts::of(term);
+        let degree = self.polynomial_degree(&parts.polynomials);
+        if degree > MAX_DEGREE_BESIDE {
+            return Err(self.problem(
+                term.source,
+                Reason::Bound(
+                    "degrees of a polynomial beside an exponential",
+                    MAX_DEGREE_BESIDE as usize,
+                ),
+            ));
+        }
+        let exponent = parts.exponent.map(|e| self.affine(e));
+        let waves = self.as_sum(&parts, exponent)?;
+        let is_growth = |w: &(Prim, Id)| matches!(w.0, Prim::Sinh | Prim::Cosh);
+        let may_cancel =
+            parts.waves.len() > 1 || exponent.is_some() && parts.waves.iter().any(is_growth);
+        if degree == 0 && !may_cancel {
+            let sum = self.sum_of(&waves);
+            let rule = match (exponent, parts.waves.first()) {
+                (Some(_), None) => Rule::Exponential,
+                (None, _) => Rule::Wave,
+                _ => Rule::DampedWave,
+            };
+            return Ok((sum, rule));
+        }
+        let change = self.change(&parts, exponent);
+        let (limit, rule, far) = if degree == 0 {
+            let count = parts.waves.len() + usize::from(exponent.is_some());
+            #[allow(clippy::cast_precision_loss, reason = "a count of at most 17")]
+            let limit = count as f64;
+            (limit, Rule::ProductOfWaves, self.sum_of(&waves))
+        } else {
+            let far = self.by_parts(&parts.polynomials, degree, &waves)?;
+            (f64::from(degree) + 2.0, Rule::PolynomialByWave, far)
+        };
+        let integrand = term.moving(self.g);
+        let nodes = nodes_for_exponential(limit, degree as usize, NEAR);
+        let near = self.gauss(integrand, nodes);
+        let limit = self.g.real(limit);
+        Ok((if_less(self.g, limit, change, far, near), rule))
+    }
+
+    /// |h| times the sum of the sizes of all slopes.
+    fn change(&mut self, parts: &Parts, exponent: Option<Affine>) -> Id {
+        let mut slopes: Vec<Id> = exponent.iter().map(|e| e.slope).collect();
+        for &(_, phase) in &parts.waves {
+            slopes.push(self.affine(phase).slope);
+        }
+        let sizes: Vec<Id> = slopes
+            .into_iter()
+            .map(|s| call(self.g, Prim::Abs, s))
+            .collect();
+        let sum = total(self.g, sizes);
+        let half = call(self.g, Prim::Abs, self.path.half);
+        mul(self.g, half, sum)
+    }
+
+    pub(super) fn polynomial_degree(&mut self, polynomials: &[Id]) -> u32 {
+        polynomials
+            .iter()
+            .map(|&p| self.degree(p).unwrap_or(0))
+            .sum()
+    }
+
+    /// The waves as a sum of exponentials times at most one wave each.
+    fn as_sum(&mut self, parts: &Parts, exponent: Option<Affine>) -> Result<Vec<Wave>, Problem> {
+        let is_round = |p: &Prim| matches!(p, Prim::Sin | Prim::Cos);
+        let (round, hyperbolic): (Vec<_>, Vec<_>) =
+            parts.waves.iter().copied().partition(|w| is_round(&w.0));
+        let round_sum = product_to_sum(&round, true);
+        let hyperbolic_sum = product_to_sum(&hyperbolic, false);
+        let mut out = Vec::new();
+        for ((sine, phases), v) in &round_sum {
+            let wave = self.combined(phases);
+            let wave = wave.map(|w| (if *sine { Prim::Sin } else { Prim::Cos }, w));
+            if wave.is_none() && *sine {
+                continue;
+            }
+            for ((odd, growths), w) in &hyperbolic_sum {
+                let growth = self.combined(growths);
+                if growth.is_none() && *odd {
+                    continue;
+                }
+                let alone = exponent.is_none() && wave.is_none();
+                match growth {
+                    None => out.push(Wave {
+                        scale: v * w,
+                        exponent,
+                        wave,
+                    }),
+                    Some(growth) if alone => out.push(Wave {
+                        scale: v * w,
+                        exponent,
+                        wave: Some((if *odd { Prim::Sinh } else { Prim::Cosh }, growth)),
+                    }),
+                    Some(growth) => {
+                        let back = if *odd { -1.0 } else { 1.0 };
+                        for (sign, factor) in [(1.0, 1.0), (-1.0, back)] {
+                            let turned = Affine {
+                                mid: scale(self.g, sign, growth.mid),
+                                slope: scale(self.g, sign, growth.slope),
+                            };
+                            let exponent = Some(match exponent {
+                                None => turned,
+                                Some(e) => self.sum_of_affine(e, turned),
+                            });
+                            out.push(Wave {
+                                scale: 0.5 * factor * v * w,
+                                exponent,
+                                wave,
+                            });
+                        }
+                    }
+                }
+            }
+        }
+        Ok(out)
+    }
+
+    fn sum_of_affine(&mut self, a: Affine, b: Affine) -> Affine {
+        Affine {
+            mid: add(self.g, a.mid, b.mid),
+            slope: add(self.g, a.slope, b.slope),
+        }
+    }
+
+    /// Σ n (mid + s slope), `None` of nothing.
+    fn combined(&mut self, phases: &[(Id, i32)]) -> Option<Affine> {
+        let mut sum: Option<Affine> = None;
+        for &(phase, n) in phases {
+            let one = self.affine(phase);
+            let one = Affine {
+                mid: scale(self.g, f64::from(n), one.mid),
+                slope: scale(self.g, f64::from(n), one.slope),
+            };
+            sum = Some(match sum {
+                None => one,
+                Some(sum) => self.sum_of_affine(sum, one),
+            });
+        }
+        sum
+    }
+
+    fn sum_of(&mut self, waves: &[Wave]) -> Id {
+        let parts: Vec<Id> = waves.iter().map(|w| self.mean_of_wave(w)).collect();
+        let sum = total(self.g, parts);
+        let length = self.length_of_path();
+        mul(self.g, length, sum)
+    }
+
+    /// The mean of one exponential with one wave.
+    fn mean_of_wave(&mut self, of: &Wave) -> Id {
+        let half = self.path.half;
+        let mean = match (of.exponent, of.wave) {
+            (None, None) => self.g.real(1.0),
+            (Some(e), None) => self.mean_of_exponential(e),
+            (None, Some((prim, phase))) => {
+                let quotient = if matches!(prim, Prim::Sin | Prim::Cos) {
+                    Prim::Sinc
+                } else {
+                    Prim::Sinhc
+                };
+                let change = mul(self.g, phase.slope, half);
+                let (value, shrink) = (
+                    call(self.g, prim, phase.mid),
+                    call(self.g, quotient, change),
+                );
+                mul(self.g, value, shrink)
+            }
+            (Some(e), Some((prim, phase))) => self.mean_of_damped_wave(e, prim, phase),
+        };
+        scale(self.g, of.scale, mean)
+    }
+
+    /// e^(α + |βh|) φ(-2|βh|): the greater end times a number in (0, 1].
+    pub(super) fn mean_of_exponential(&mut self, e: Affine) -> Id {
+        let change = mul(self.g, e.slope, self.path.half);
+        let size = call(self.g, Prim::Abs, change);
+        let top = add(self.g, e.mid, size);
+        let (top, twice) = (call(self.g, Prim::Exp, top), scale(self.g, -2.0, size));
+        let quotient = call(self.g, Prim::Exprel, twice);
+        mul(self.g, top, quotient)
+    }
+
+    /// The part of e^(α + w + i(γ + v)) φ(-2(w + i v)) that the wave is, w + i v = ±(β + iδ)h with w ≥ 0.
+    fn mean_of_damped_wave(&mut self, e: Affine, prim: Prim, phase: Affine) -> Id {
+        let half = self.path.half;
+        let zero = self.g.real(0.0);
+        let (w, v) = (mul(self.g, e.slope, half), mul(self.g, phase.slope, half));
+        let back = self.g.neg(v);
+        let v = if_less(self.g, w, zero, back, v);
+        let w = call(self.g, Prim::Abs, w);
+        let twice = [w, v].map(|x| scale(self.g, -2.0, x));
+        let argument = self.g.apply(Prim::Complex, &twice);
+        let quotient = call(self.g, Prim::Exprel, argument);
+        let [re, im] = [Prim::Re, Prim::Im].map(|part| call(self.g, part, quotient));
+        let (top, turn) = (add(self.g, e.mid, w), add(self.g, phase.mid, v));
+        let size = call(self.g, Prim::Exp, top);
+        let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, turn));
+        let mixed = if prim == Prim::Sin {
+            let (a, b) = (mul(self.g, sine, re), mul(self.g, cosine, im));
+            add(self.g, a, b)
+        } else {
+            let (a, b) = (mul(self.g, cosine, re), mul(self.g, sine, im));
+            sub(self.g, a, b)
+        };
+        mul(self.g, size, mixed)
+    }
+
+    /// ∫ p e^λs = [e^λs (p - (p' - (p'' - …)/λ)/λ)/λ] at both ends.
+    fn by_parts(&mut self, polynomials: &[Id], degree: u32, waves: &[Wave]) -> Result<Id, Problem> {
+        let one = self.g.real(1.0);
+        let mut derivatives = vec![polynomials.iter().fold(one, |p, &q| mul(self.g, p, q))];
+        for _ in 0..degree {
+            let last = derivatives[derivatives.len() - 1];
+            derivatives.push(self.slope(last));
+        }
+        let mut sum = self.g.real(0.0);
+        let ends = [1.0, -1.0].map(|side| {
+            let s = scale(self.g, side, self.path.half);
+            (side, self.at(&derivatives, s))
+        });
+        for wave in waves {
+            for (side, values) in &ends {
+                let part = self.end(wave, *side, values);
+                let part = scale(self.g, side * wave.scale, part);
+                sum = add(self.g, sum, part);
+            }
+        }
+        Ok(sum)
+    }
+
+    /// The antiderivative of a polynomial, given by its derivatives at an end, times one wave.
+    fn end(&mut self, of: &Wave, side: f64, values: &[Id]) -> Id {
+        let at_end = |this: &mut Self, a: Affine| {
+            let step = mul(this.g, a.slope, this.path.half);
+            let step = scale(this.g, side, step);
+            add(this.g, a.mid, step)
+        };
+        let exponent = of.exponent.map(|e| (at_end(self, e), e.slope));
+        let wave = of
+            .wave
+            .map(|(prim, phase)| (prim, at_end(self, phase), phase.slope));
+        match (exponent, wave) {
+            (Some((top, rate)), None) => {
+                let sum = self.nested(values, rate);
+                let size = call(self.g, Prim::Exp, top);
+                mul(self.g, size, sum)
+            }
+            (None, Some((prim @ (Prim::Sinh | Prim::Cosh), top, rate))) => {
+                // even derivatives keep the kind of the wave turned once, odd ones turn it back
+                let (sinh, cosh) = (call(self.g, Prim::Sinh, top), call(self.g, Prim::Cosh, top));
+                let (first, second) = if prim == Prim::Sinh {
+                    (cosh, sinh)
+                } else {
+                    (sinh, cosh)
+                };
+                self.alternating(values, rate, [first, second], false)
+            }
+            (None, Some((prim, top, rate))) => {
+                let (sine, cosine) = (call(self.g, Prim::Sin, top), call(self.g, Prim::Cos, top));
+                let (first, second) = if prim == Prim::Sin {
+                    (self.g.neg(cosine), sine)
+                } else {
+                    (sine, cosine)
+                };
+                self.alternating(values, rate, [first, second], true)
+            }
+            (Some((top, rate)), Some((prim, turn, speed))) => {
+                let rate = self.g.apply(Prim::Complex, &[rate, speed]);
+                let sum = self.nested(values, rate);
+                let [re, im] = [Prim::Re, Prim::Im].map(|part| call(self.g, part, sum));
+                let size = call(self.g, Prim::Exp, top);
+                let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, turn));
+                let mixed = if prim == Prim::Sin {
+                    let (a, b) = (mul(self.g, sine, re), mul(self.g, cosine, im));
+                    add(self.g, a, b)
+                } else {
+                    let (a, b) = (mul(self.g, cosine, re), mul(self.g, sine, im));
+                    sub(self.g, a, b)
+                };
+                mul(self.g, size, mixed)
+            }
+            (None, None) => self.g.real(0.0),
+        }
+    }
+
+    /// (p - (p' - (p'' - …)/λ)/λ)/λ
+    fn nested(&mut self, values: &[Id], rate: Id) -> Id {
+        let mut sum = self.g.real(0.0);
+        for &value in values.iter().rev() {
+            let rest = sub(self.g, value, sum);
+            sum = self.g.div(rest, rate);
+        }
+        sum
+    }
+
+    /// Σ p⁽ᵏ⁾/δᵏ⁺¹ times the waves in turn. `turns` tells circular waves, whose signs go + + - -, from hyperbolic ones,
+    /// whose signs go + - + -.
+    fn alternating(&mut self, values: &[Id], rate: Id, waves: [Id; 2], turns: bool) -> Id {
+        let mut sums = [self.g.real(0.0), self.g.real(0.0)];
+        // in pairs from the last: p⁽ᵏ⁾ ∓ p⁽ᵏ⁺²⁾/δ² …
+        let square = self.g.apply(Prim::PowInt(2), &[rate]);
+        for (k, &value) in values.iter().enumerate().rev() {
+            let sum = &mut sums[k % 2];
+            let rest = self.g.div(*sum, square);
+            let rest = if super::arithmetic::is_zero(self.g, *sum) {
+                *sum
+            } else {
+                rest
+            };
+            *sum = if turns {
+                sub(self.g, value, rest)
+            } else {
+                add(self.g, value, rest)
+            };
+        }
+        let even = self.g.div(sums[0], rate);
+        let odd = self.g.div(sums[1], square);
+        let (first, second) = (mul(self.g, even, waves[0]), mul(self.g, odd, waves[1]));
+        if turns {
+            add(self.g, first, second)
+        } else {
+            sub(self.g, first, second)
+        }
+    }
+}
+
+/// The factors of a term by kind.
+pub(super) struct Parts {
+    pub polynomials: Vec<Id>,
+    pub exponent: Option<Id>,
+    pub waves: Vec<(Prim, Id)>,
+    /// Every other factor.
+    pub rest: Vec<Factor>,
+}
+
+impl Parts {
+    pub(super) fn of(term: &Term) -> Self {
+        let mut out = Self {
+            polynomials: Vec::new(),
+            exponent: None,
+            waves: Vec::new(),
+            rest: Vec::new(),
+        };
+        for &factor in &term.factors {
+            match factor {
+                Factor::Polynomial(p) => out.polynomials.push(p),
+                Factor::Exponential(e) if out.exponent.is_none() => out.exponent = Some(e),
+                Factor::Wave(prim, phase) => out.waves.push((prim, phase)),
+                other => out.rest.push(other),
+            }
+        }
+        out
+    }
+}
+
+/// cos A cos u = (cos(A + u) + cos(A - u))/2 and its kin: a product of waves as a sum of waves of sums. `round`: sin and
+/// cos, else sinh and cosh. The empty product is cos 0.
+fn product_to_sum(waves: &[(Prim, Id)], round: bool) -> Waves {
+    let mut sum: Waves = BTreeMap::new();
+    sum.insert((false, Vec::new()), 1.0);
+    for &(prim, phase) in waves {
+        let odd = matches!(prim, Prim::Sin | Prim::Sinh);
+        let mut next: Waves = BTreeMap::new();
+        for ((is_odd, phases), v) in &sum {
+            // the wave of the sum of phases, then that of the difference
+            let (kind, plus, minus) = match (is_odd, odd) {
+                (false, false) => (false, 0.5, 0.5),
+                (false, true) => (true, 0.5, -0.5),
+                (true, false) => (true, 0.5, 0.5),
+                (true, true) if round => (false, -0.5, 0.5),
+                (true, true) => (false, 0.5, -0.5),
+            };
+            for (n, weight) in [(1, plus), (-1, minus)] {
+                let (phases, turned) = canonical(phases, phase, n);
+                let sign = if turned && kind { -1.0 } else { 1.0 };
+                *next.entry((kind, phases)).or_insert(0.0) += sign * weight * v;
+            }
+        }
+        next.retain(|_, v| *v != 0.0);
+        sum = next;
+    }
+    sum
+}
+
+/// Adds n times a phase; the first multiple is made positive, and whether that turned the whole is told.
+fn canonical(phases: &[(Id, i32)], phase: Id, n: i32) -> (Vec<(Id, i32)>, bool) {
+    let mut out: Phases = SmallVec::from_slice(phases);
+    match out.iter_mut().find(|p| p.0 == phase) {
+        Some(known) => known.1 += n,
+        None => out.push((phase, n)),
+    }
+    out.retain(|p| p.1 != 0);
+    out.sort_unstable();
+    let turned = out.first().is_some_and(|p| p.1 < 0);
+    if turned {
+        for p in &mut out {
+            p.1 = -p.1;
+        }
+    }
+    (out.to_vec(), turned)
+}

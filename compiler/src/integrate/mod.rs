@@ -1,0 +1,351 @@
+//! Definite integrals of expressions along a line, as IR.
+//!
+//! ∫ₐᵇ f(o + t d) dt is taken as a definite integral: the line is centred at the middle of the interval, so that the
+//! result vanishes with its length and nothing is the difference of two antiderivatives where that cancels. The
+//! integrand becomes a sum of products; each product is integrated by the rule of its class ([`Rule`]). What is piecewise
+//! is cut where its conditions change. Nothing divides by a component of the direction.
+
+mod arithmetic;
+mod breaks;
+mod class;
+mod expand;
+mod explain;
+mod exponential;
+mod field;
+mod legendre;
+mod path;
+mod problem;
+mod quadratic;
+mod quadrature;
+mod rule;
+mod series;
+mod term;
+
+pub use breaks::MAX_BREAKS;
+pub use class::MAX_DEGREE;
+pub use expand::{MAX_FACTORS, MAX_TERMS};
+pub use explain::{Explanation, Told, explain};
+pub use exponential::MAX_DEGREE_BESIDE;
+pub use field::{FieldIntegral, INPUTS, field_integral};
+pub use legendre::{Node as QuadratureNode, gauss_legendre};
+pub use path::{Coordinate, Path};
+pub use problem::{Problem, Reason};
+pub use rule::{RULES, Record, Rule};
+
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+
+use arithmetic::{add, mul, scale};
+use class::Classes;
+use path::Body;
+use term::{Factor, Term};
+
+use crate::derive::forward;
+use crate::ir::{Graph, Id, Prim};
+
+/// Greatest number of nodes that an integral may add to a graph.
+pub const MAX_NODES: usize = 200_000;
+
+/// What is done where there is no closed form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Otherwise {
+    /// The first such part is an error.
+    Refuse,
+    /// It is integrated numerically.
+    Quadrature,
+}
+
+/// One product of the integrand and the rule that integrated it.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// The product.
+    pub integrand: Id,
+    /// The conditions under which it counts, each with whether it holds.
+    pub guards: SmallVec<[(Id, bool); 2]>,
+    /// The rule.
+    pub rule: Rule,
+}
+
+/// A definite integral.
+#[derive(Clone, Debug)]
+pub struct Integral {
+    /// Its value.
+    pub value: Id,
+    /// The products of the integrand, each with its rule.
+    pub parts: Vec<Part>,
+    /// Whether the interval is cut into pieces where conditions change.
+    pub pieces: bool,
+    /// The parts that were integrated numerically, and why.
+    pub numerical: Vec<Problem>,
+}
+
+/// ∫ of a real expression along a path.
+///
+/// # Errors
+/// A part has no closed form and none but closed forms are wanted, or a bound is exceeded.
+pub fn integrate(
+    g: &mut Graph,
+    root: Id,
+    path: &Path,
+    otherwise: Otherwise,
+) -> Result<Integral, Problem> {
+    let mut integrator = Integrator::new(g, path.clone(), otherwise);
+    let value = integrator.whole(root)?;
+    Ok(Integral {
+        value,
+        parts: integrator.parts,
+        pieces: integrator.pieces,
+        numerical: integrator.numerical,
+    })
+}
+
+/// ∫ of a real expression along a path by quadrature alone, cut where conditions change.
+///
+/// # Errors
+/// A bound is exceeded.
+pub fn quadrature(g: &mut Graph, root: Id, path: &Path) -> Result<Id, Problem> {
+    Integrator::new(g, path.clone(), Otherwise::Quadrature).by_quadrature_alone(root)
+}
+
+/// Builds one integral.
+struct Integrator<'g> {
+    g: &'g mut Graph,
+    path: Path,
+    classes: Classes,
+    otherwise: Otherwise,
+    parts: Vec<Part>,
+    numerical: Vec<Problem>,
+    pieces: bool,
+    /// The conditions as they were written, of those that were decided.
+    written: FxHashMap<Id, Id>,
+    /// Number of nodes of the graph beyond which the integral is refused.
+    limit: usize,
+}
+
+impl<'g> Integrator<'g> {
+    fn new(g: &'g mut Graph, path: Path, otherwise: Otherwise) -> Self {
+        let classes = Classes::new(path.coordinates.iter().map(|c| c.leaf));
+        let limit = g.nodes().len() + MAX_NODES;
+        Self {
+            g,
+            path,
+            classes,
+            otherwise,
+            parts: Vec::new(),
+            numerical: Vec::new(),
+            pieces: false,
+            written: FxHashMap::default(),
+            limit,
+        }
+    }
+
+    /// The integral of the whole integrand, in pieces where it has conditions.
+    fn whole(&mut self, root: Id) -> Result<Id, Problem> {
+        match self.cuts(root) {
+            Ok(cuts) if cuts.is_empty() => self.smooth(root),
+            Ok(cuts) => {
+                self.pieces = true;
+                self.piecewise(root, &cuts, Self::smooth)
+            }
+            Err(problem) if self.otherwise == Otherwise::Quadrature => {
+                let value = self.composite(root);
+                self.numerical.push(problem);
+                Ok(value)
+            }
+            Err(problem) => Err(problem),
+        }
+    }
+
+    /// The integral of an integrand whose conditions are constant along the path.
+    fn smooth(&mut self, root: Id) -> Result<Id, Problem> {
+        if let Some(degree) = self.degree(root) {
+            return Ok(self.polynomial(root, degree));
+        }
+        let terms = self.expand(root)?;
+        let mut sum = self.g.real(0.0);
+        let mut rest = self.g.real(0.0);
+        for term in terms {
+            match self.term(&term) {
+                Ok(value) => {
+                    let value = self.guarded(&term, value);
+                    sum = add(self.g, sum, value);
+                }
+                Err(problem) if self.otherwise == Otherwise::Refuse => return Err(problem),
+                Err(problem) => {
+                    let integrand = term.integrand(self.g);
+                    let integrand = self.guarded(&term, integrand);
+                    rest = add(self.g, rest, integrand);
+                    self.numerical.push(problem);
+                }
+            }
+            if self.g.nodes().len() > self.limit {
+                return Err(self.problem(term.source, Reason::Bound("operations", MAX_NODES)));
+            }
+        }
+        if self.moves(rest) {
+            let value = self.composite(rest);
+            sum = add(self.g, sum, value);
+        }
+        Ok(sum)
+    }
+
+    fn guarded(&mut self, term: &Term, mut value: Id) -> Id {
+        let zero = self.g.real(0.0);
+        for &(condition, holds) in &term.guards {
+            let (then, otherwise) = if holds { (value, zero) } else { (zero, value) };
+            value = self.g.apply(Prim::Select, &[condition, then, otherwise]);
+        }
+        value
+    }
+
+    /// c L, and Gauss-Legendre with ⌈(n + 1)/2⌉ nodes of the polynomial as it is written.
+    fn polynomial(&mut self, root: Id, degree: u32) -> Id {
+        let rule = if degree == 0 {
+            Rule::Constant
+        } else {
+            Rule::Polynomial
+        };
+        self.note(root, &[], rule);
+        self.gauss(root, degree as usize / 2 + 1)
+    }
+
+    /// Remembers how a product was integrated, conditions as they were written.
+    fn note(&mut self, integrand: Id, guards: &[(Id, bool)], rule: Rule) {
+        let values: Vec<(Id, Id)> = self.written.iter().map(|(&d, &w)| (d, w)).collect();
+        let roots: Vec<Id> = std::iter::once(integrand)
+            .chain(guards.iter().map(|c| c.0))
+            .collect();
+        let body = Body::new(self.g, &roots, values.iter().map(|v| v.0));
+        let shown = body.at(self.g, &values);
+        let holds = guards.iter().map(|c| c.1);
+        self.parts.push(Part {
+            integrand: shown[0],
+            guards: shown[1..].iter().copied().zip(holds).collect(),
+            rule,
+        });
+    }
+
+    /// The integral of one product.
+    fn term(&mut self, term: &Term) -> Result<Id, Problem> {
+        let (value, rule) = self.by_class(term)?;
+        let integrand = term.integrand(self.g);
+        self.note(integrand, &term.guards, rule);
+        Ok(mul(self.g, term.coefficient, value))
+    }
+
+    /// The integral of the factors of a product without its coefficient.
+    fn by_class(&mut self, term: &Term) -> Result<(Id, Rule), Problem> {
+        let is = |f: fn(&Factor) -> bool| term.factors.iter().all(f);
+        if term.factors.is_empty() {
+            return Ok((self.length_of_path(), Rule::Constant));
+        }
+        if let Some(problem) = self.without_rule(term) {
+            return Err(problem);
+        }
+        if is(|f| matches!(f, Factor::Polynomial(_))) {
+            let moving = term.moving(self.g);
+            let Some(degree) = self.degree(moving) else {
+                return Err(
+                    self.problem(term.source, Reason::Bound("degrees", MAX_DEGREE as usize))
+                );
+            };
+            return Ok((
+                self.gauss(moving, degree as usize / 2 + 1),
+                Rule::Polynomial,
+            ));
+        }
+        if let [Factor::Series(id)] = *term.factors.as_slice() {
+            return self.series(id);
+        }
+        self.classes.extend(self.g);
+        let is_exponential = |f: &Factor| match f {
+            Factor::Polynomial(_) | Factor::Wave(..) => true,
+            Factor::Exponential(e) => self.classes.known_degree(*e) == Some(1),
+            _ => false,
+        };
+        if term.factors.iter().all(is_exponential) {
+            return self.exponential(term);
+        }
+        Err(self.why_product(term))
+    }
+
+    /// Why a product with this factor has no rule whatever else it is made of.
+    fn without_rule(&mut self, term: &Term) -> Option<Problem> {
+        let other = term.factors.iter().find_map(|f| match f {
+            Factor::Other(id) => Some(*id),
+            _ => None,
+        })?;
+        Some(self.why(other))
+    }
+
+    fn degree(&mut self, id: Id) -> Option<u32> {
+        self.classes.degree(self.g, id)
+    }
+
+    fn moves(&mut self, id: Id) -> bool {
+        self.classes.moves(self.g, id)
+    }
+
+    fn extend_classes(&mut self) {
+        self.classes.extend(self.g);
+    }
+
+    /// 2h
+    fn length_of_path(&mut self) -> Id {
+        scale(self.g, 2.0, self.path.half)
+    }
+
+    /// An expression in the middle of the path.
+    fn at_middle(&mut self, id: Id) -> Id {
+        if !self.moves(id) {
+            return id;
+        }
+        let leaves = self.path.coordinates.iter().map(|c| c.leaf);
+        let values = self.path.middle();
+        Body::new(self.g, &[id], leaves).at(self.g, &values)[0]
+    }
+
+    /// Expressions at s.
+    fn at(&mut self, roots: &[Id], s: Id) -> SmallVec<[Id; 4]> {
+        let leaves = self.path.coordinates.iter().map(|c| c.leaf);
+        let body = Body::new(self.g, roots, leaves);
+        let values = self.path.point(self.g, s);
+        body.at(self.g, &values)
+    }
+
+    /// The derivative by s. What has none has no such factor.
+    fn slope(&mut self, id: Id) -> Id {
+        let seeds = self.path.seeds();
+        let slope = forward(self.g, &[id], &seeds).ok().and_then(|t| t[0]);
+        slope.unwrap_or_else(|| self.g.real(0.0))
+    }
+
+    /// ∫ by Gauss-Legendre nodes of the expression itself: Σ h wⱼ f(h xⱼ).
+    fn gauss(&mut self, root: Id, count: usize) -> Id {
+        if !self.moves(root) {
+            let length = self.length_of_path();
+            return mul(self.g, length, root);
+        }
+        let leaves = self.path.coordinates.iter().map(|c| c.leaf);
+        let body = Body::new(self.g, &[root], leaves);
+        let mut sum = self.g.real(0.0);
+        for node in gauss_legendre(count) {
+            let s = scale(self.g, node.place, self.path.half);
+            let values = if node.place == 0.0 {
+                self.path.middle()
+            } else {
+                self.path.point(self.g, s)
+            };
+            let mut value = body.at(self.g, &values)[0];
+            if node.place != 0.0 {
+                let back = self.g.neg(s);
+                let values = self.path.point(self.g, back);
+                let other = body.at(self.g, &values)[0];
+                value = self.g.add(value, other);
+            }
+            let part = scale(self.g, node.weight, value);
+            sum = add(self.g, sum, part);
+        }
+        mul(self.g, self.path.half, sum)
+    }
+}

@@ -1,0 +1,173 @@
+//! Why a part of an integrand has no closed form.
+
+use pullback_grammar::Span;
+
+use super::Integrator;
+use super::term::{Factor, Term};
+use crate::ir::{Id, Op, Prim};
+
+/// A part of an integrand that is not integrated in closed form.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// The part.
+    pub node: Id,
+    /// Where it stands in the text; empty where that is not known.
+    pub span: Span,
+    /// Why.
+    pub reason: Reason,
+}
+
+/// Why there is no closed form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// There is no elementary one: the theorem or the function that is needed.
+    NotElementary(&'static str),
+    /// None was found.
+    NotFound,
+    /// There are more of these than the bound.
+    Bound(&'static str, usize),
+    /// A condition whose zeros along a line are not those of a polynomial of degree 2.
+    Condition,
+    /// A loop that is not a sum of terms, whose number is constant along the line.
+    Loop,
+    /// The value jumps at every whole number of something that grows along the line.
+    Rounding,
+    /// A complex number on the way.
+    Complex,
+}
+
+impl Reason {
+    /// The reason as a sentence's end: "… has no closed form here: ".
+    #[must_use]
+    pub fn in_words(self) -> String {
+        match self {
+            Self::NotElementary(why) => format!("no elementary function has this derivative ({why})"),
+            Self::NotFound => "none of the rules integrates it; whether it has one is not known".to_owned(),
+            Self::Bound(what, bound) => format!("at most {bound} {what} are written out"),
+            Self::Condition => {
+                "conditions are cut where polynomials of degree 1 or 2, or lengths, change their order".to_owned()
+            }
+            Self::Loop => "of the loops, sums of terms with a constant number of terms are integrated".to_owned(),
+            Self::Rounding => "it jumps as often as the line is long".to_owned(),
+            Self::Complex => "complex numbers on the way are not integrated".to_owned(),
+        }
+    }
+
+    /// Whether it is proven that no elementary function is the integral.
+    #[must_use]
+    pub fn is_proven(self) -> bool {
+        matches!(self, Self::NotElementary(_))
+    }
+}
+
+impl Integrator<'_> {
+    pub(super) fn problem(&self, node: Id, reason: Reason) -> Problem {
+        Problem {
+            node,
+            span: self.g.span(node),
+            reason,
+        }
+    }
+
+    /// Why a factor has no rule. The part that is named is the innermost one that has none by itself.
+    pub(super) fn why(&mut self, id: Id) -> Problem {
+        let mut id = id;
+        loop {
+            let node = self.g.node(id).clone();
+            let Op::Apply(prim) = node.op else {
+                return self.problem(id, Reason::NotFound);
+            };
+            if node
+                .args
+                .iter()
+                .any(|&a| self.g.ty(a) == crate::ir::Ty::Complex)
+            {
+                return self.problem(id, Reason::Complex);
+            }
+            if let Some(reason) = self.theorem(prim, &node.args) {
+                return self.problem(id, reason);
+            }
+            let first = node.args.first().copied();
+            let is_inside = |this: &mut Self, a: Id| {
+                let op = this.g.node(a).op;
+                this.degree(a).is_none() && matches!(op, Op::Apply(p) if is_rounding(p))
+            };
+            match first {
+                Some(a) if is_inside(self, a) => id = a,
+                _ => return self.problem(id, Reason::NotFound),
+            }
+        }
+    }
+
+    /// The known theorems that speak of one operation. Rosenlicht, "Integration in finite terms", American Mathematical
+    /// Monthly 79 (1972), for e^p and its kin; Legendre for the roots.
+    fn theorem(&mut self, prim: Prim, args: &[Id]) -> Option<Reason> {
+        let first = *args.first()?;
+        let degree = self.degree(first);
+        let inner = match self.g.node(first).op {
+            Op::Apply(inner) => Some(inner),
+            _ => None,
+        };
+        let is_wave = |p: Option<Prim>| matches!(p, Some(Prim::Sin | Prim::Cos | Prim::Exp));
+        Some(Reason::NotElementary(match prim {
+            _ if is_rounding(prim) => return Some(Reason::Rounding),
+            Prim::Exp if degree.is_some_and(|d| d > 2) => {
+                "Liouville: e to a polynomial of degree 3 or more"
+            }
+            Prim::Sin | Prim::Cos if degree.is_some_and(|d| d > 1) => {
+                "Liouville: the sine of a polynomial of degree 2 or more; of degree 2 it is Fresnel's integral"
+            }
+            Prim::Exp if is_wave(inner) => "Liouville: e to a sine or an exponential",
+            Prim::Sin | Prim::Cos if is_wave(inner) => {
+                "Liouville: the sine of a sine or an exponential"
+            }
+            Prim::Exp if matches!(inner, Some(Prim::Hypot | Prim::Hypot3)) => {
+                "Liouville: e to the root of a quadratic; the line that meets its zero is an exception"
+            }
+            Prim::Sqrt if degree.is_some_and(|d| d == 3 || d == 4) => {
+                "Legendre: an elliptic integral, unless the polynomial has a double root"
+            }
+            Prim::Sqrt if degree.is_some_and(|d| d > 4) => {
+                "Abel: a hyperelliptic integral, unless the polynomial has a double root"
+            }
+            _ => return None,
+        }))
+    }
+
+    /// Why a product of known factors has no rule.
+    pub(super) fn why_product(&mut self, term: &Term) -> Problem {
+        let is_exponential = |f: &Factor| matches!(f, Factor::Exponential(_) | Factor::Wave(..));
+        let exponentials = term.factors.iter().filter(|f| is_exponential(f)).count();
+        let reason = match term.factors.as_slice() {
+            [a, b] if exponentials == 1 => {
+                let other = if is_exponential(a) { *b } else { *a };
+                let (Factor::Power(base, _) | Factor::Log(base)) = other else {
+                    return self.problem(term.source, Reason::NotFound);
+                };
+                let degree = self.degree(base);
+                let n = match other {
+                    Factor::Power(_, n) => self.g.as_real(n),
+                    _ => None,
+                };
+                match (degree, n, other) {
+                    (Some(1), Some(n), _) if n < 0.0 && n.fract() == 0.0 => {
+                        Reason::NotElementary("Liouville: the exponential, sine or cosine integral")
+                    }
+                    (Some(1), _, Factor::Log(_)) => {
+                        Reason::NotElementary("Liouville: the exponential, sine or cosine integral")
+                    }
+                    _ => Reason::NotFound,
+                }
+            }
+            _ => Reason::NotFound,
+        };
+        self.problem(term.source, reason)
+    }
+}
+
+fn is_rounding(prim: Prim) -> bool {
+    matches!(
+        prim,
+        Prim::Floor | Prim::Ceil | Prim::Round | Prim::Trunc | Prim::Fract | Prim::Mod | Prim::Hash
+    )
+}

@@ -1,0 +1,215 @@
+//! Polynomials of degree 1 and 2 by their values in the middle of the path.
+
+use super::Integrator;
+use super::arithmetic::{add, div, mul, scale, square, sub, total};
+use crate::ir::{Id, Op, Prim};
+
+/// mid + s slope.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Affine {
+    /// Value in the middle.
+    pub mid: Id,
+    /// Change by s.
+    pub slope: Id,
+}
+
+/// a s² + 2 b s + c.
+#[derive(Clone, Copy, Debug)]
+pub struct Quadratic {
+    /// Coefficient of s².
+    pub a: Id,
+    /// Half the coefficient of s.
+    pub b: Id,
+    /// Value in the middle.
+    pub c: Id,
+    /// a c - b². Of a sum of squares |u + s v|² with a constant k it is k |v|² + |u × v|², which does not cancel.
+    pub discriminant: Id,
+}
+
+/// What a polynomial of degree 2 is a sum of.
+#[derive(Debug, Default)]
+struct Squares {
+    /// Weights and what is squared.
+    squares: Vec<(Id, Affine)>,
+    /// What is of degree 1.
+    linear: Vec<(Id, Affine)>,
+    /// What is constant, with its weight.
+    constant: Vec<(Id, Id)>,
+}
+
+/// Greatest number of squares for which products of all pairs are formed.
+const MAX_SQUARES: usize = 8;
+
+impl Integrator<'_> {
+    /// The value and the slope in the middle of an expression of degree 1 or 0.
+    pub(super) fn affine(&mut self, id: Id) -> Affine {
+        let mid = self.at_middle(id);
+        let slope = self.slope(id);
+        let slope = self.at_middle(slope);
+        Affine { mid, slope }
+    }
+
+    /// The coefficients of an expression of degree 2 or less.
+    pub(super) fn quadratic(&mut self, id: Id) -> Quadratic {
+        let c = self.at_middle(id);
+        let slope = self.slope(id);
+        let curvature = self.slope(slope);
+        let (slope, curvature) = (self.at_middle(slope), self.at_middle(curvature));
+        let (b, a) = (scale(self.g, 0.5, slope), scale(self.g, 0.5, curvature));
+        let found = self.squares(id).and_then(|s| self.discriminant(&s));
+        let discriminant = found.unwrap_or_else(|| {
+            let (ac, bb) = (mul(self.g, a, c), square(self.g, b));
+            sub(self.g, ac, bb)
+        });
+        Quadratic {
+            a,
+            b,
+            c,
+            discriminant,
+        }
+    }
+
+    /// Whether an expression is a sum of squares with positive weights and constants that are not negative.
+    pub(super) fn is_sum_of_squares(&mut self, id: Id) -> bool {
+        let Some(found) = self.squares(id) else {
+            return false;
+        };
+        let weights = found.squares.iter().map(|s| s.0);
+        let values: Vec<Id> = weights.chain(found.constant.iter().map(|c| c.1)).collect();
+        let positive = |&w: &Id| self.g.as_real(w).is_some_and(|w| w >= 0.0);
+        found.linear.is_empty()
+            && values.iter().all(positive)
+            && found.constant.iter().all(|c| positive(&c.0))
+    }
+
+    /// a c - b² from the squares.
+    fn discriminant(&mut self, found: &Squares) -> Option<Id> {
+        if found.squares.len() > MAX_SQUARES {
+            return None;
+        }
+        let g = &mut *self.g;
+        let mut out = g.real(0.0);
+        for (k, (w, x)) in found.squares.iter().enumerate() {
+            for (v, y) in &found.squares[..k] {
+                let (left, right) = (mul(g, x.mid, y.slope), mul(g, y.mid, x.slope));
+                let cross = sub(g, left, right);
+                let weight = mul(g, *w, *v);
+                let crossed = square(g, cross);
+                let part = mul(g, weight, crossed);
+                out = add(g, out, part);
+            }
+        }
+        let mut a = g.real(0.0);
+        let mut b = g.real(0.0);
+        for (w, x) in &found.squares {
+            let (rate, product) = (square(g, x.slope), mul(g, x.mid, x.slope));
+            let (rate, product) = (mul(g, *w, rate), mul(g, *w, product));
+            (a, b) = (add(g, a, rate), add(g, b, product));
+        }
+        let parts: Vec<Id> = found.constant.iter().map(|&(w, c)| mul(g, w, c)).collect();
+        let mut constant = total(g, parts);
+        if !found.linear.is_empty() {
+            // the linear part ℓ₀ + ℓ₁ s: a ℓ₀ - ℓ₁ (b + ℓ₁/4)
+            let mut slope = g.real(0.0);
+            for &(w, x) in &found.linear {
+                let (mid, rate) = (mul(g, w, x.mid), mul(g, w, x.slope));
+                (constant, slope) = (add(g, constant, mid), add(g, slope, rate));
+            }
+            let quarter = scale(g, 0.25, slope);
+            let sum = add(g, b, quarter);
+            let part = mul(g, slope, sum);
+            out = sub(g, out, part);
+        }
+        let part = mul(g, a, constant);
+        Some(add(g, out, part))
+    }
+
+    /// Takes a polynomial apart into squares, what is linear, and constants.
+    fn squares(&mut self, root: Id) -> Option<Squares> {
+        let mut out = Squares::default();
+        let one = self.g.real(1.0);
+        let mut stack = vec![(root, one)];
+        while let Some((id, weight)) = stack.pop() {
+            if out.squares.len() + stack.len() > 64 {
+                return None;
+            }
+            match self.degree(id)? {
+                0 => out.constant.push((weight, id)),
+                1 => {
+                    let affine = self.affine(id);
+                    out.linear.push((weight, affine));
+                }
+                2 => self.take_apart(id, weight, &mut stack, &mut out)?,
+                _ => return None,
+            }
+        }
+        Some(out)
+    }
+
+    fn take_apart(
+        &mut self,
+        id: Id,
+        weight: Id,
+        stack: &mut Vec<(Id, Id)>,
+        out: &mut Squares,
+    ) -> Option<()> {
+        let node = self.g.node(id).clone();
+        let Op::Apply(prim) = node.op else {
+            return None;
+        };
+        match (prim, node.args.as_slice()) {
+            (Prim::Add, &[a, b]) => stack.extend([(a, weight), (b, weight)]),
+            (Prim::Sub, &[a, b]) => {
+                let less = self.g.neg(weight);
+                stack.extend([(a, weight), (b, less)]);
+            }
+            (Prim::Neg, &[a]) => {
+                let less = self.g.neg(weight);
+                stack.push((a, less));
+            }
+            (Prim::Mul, &[a, b]) if a == b => self.push_square(a, weight, out)?,
+            (Prim::Mul, &[a, b]) if !self.moves(a) => {
+                let weight = mul(self.g, weight, a);
+                stack.push((b, weight));
+            }
+            (Prim::Mul, &[a, b]) if !self.moves(b) => {
+                let weight = mul(self.g, weight, b);
+                stack.push((a, weight));
+            }
+            (Prim::Div, &[a, b]) if !self.moves(b) => {
+                let weight = div(self.g, weight, b);
+                stack.push((a, weight));
+            }
+            (Prim::PowInt(2), &[a]) => {
+                let inner = self.g.node(a).clone();
+                match inner.op {
+                    Op::Apply(Prim::Hypot | Prim::Hypot3) => {
+                        for &part in &inner.args {
+                            self.push_square(part, weight, out)?;
+                        }
+                    }
+                    Op::Apply(Prim::Sqrt) => stack.push((inner.args[0], weight)),
+                    Op::Apply(Prim::Abs) => self.push_square(inner.args[0], weight, out)?,
+                    _ => self.push_square(a, weight, out)?,
+                }
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+
+    fn push_square(&mut self, of: Id, weight: Id, out: &mut Squares) -> Option<()> {
+        match self.degree(of)? {
+            0 => {
+                let square = square(self.g, of);
+                out.constant.push((weight, square));
+            }
+            1 => {
+                let affine = self.affine(of);
+                out.squares.push((weight, affine));
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+}

@@ -1,0 +1,159 @@
+//! Integrals of rational functions over [0, 1] that are 1 or near it at 0, where the quotients that they are written as
+//! have 0/0: arctangent and logarithm, each divided by its argument, and what their derivatives need.
+
+use super::complex::{Complex, complex};
+
+/// ∫₀¹ s^{b-1} / (1 + z s²) ds by Gauss' continued fraction, -0.9 ≤ z ≤ 3:
+/// 1/(b + b² z/(b + 2 + 2² z/(b + 4 + (b + 2)² z/(b + 6 + 4² z/(b + 8 + …))))). (Cuyt, Petersen, Verdonk, Waadeland,
+/// Jones, "Handbook of Continued Fractions for Special Functions", 2008, section 15.3, for F(1, b/2; b/2 + 1; -z).)
+fn moment_fraction(b: f64, z: f64) -> f64 {
+    const LEVELS: i32 = 64;
+    let mut value = b + 2.0 * f64::from(LEVELS);
+    for k in (0..LEVELS).rev() {
+        // level k has the numerator (b + k)² for even k, (k + 1)² for odd
+        let root = if k % 2 == 0 {
+            b + f64::from(k)
+        } else {
+            f64::from(k) + 1.0
+        };
+        value = b + 2.0 * f64::from(k) + root * root * z / value;
+    }
+    1.0 / value
+}
+
+/// Whether the continued fraction is quick.
+fn is_moderate(z: f64) -> bool {
+    (-0.9..3.0).contains(&z)
+}
+
+/// ∫₀¹ s^{2n} / (1 + z s²) ds: for n = 0 atan(√z)/√z, continued through 0 to artanh(√-z)/√-z. Infinite at -1, NaN below.
+pub fn atan_quotient(n: u8, z: f64) -> f64 {
+    if z.is_nan() || z < -1.0 {
+        return f64::NAN;
+    }
+    if z == -1.0 || z == f64::INFINITY {
+        return if z < 0.0 { f64::INFINITY } else { 0.0 };
+    }
+    let b = 2.0 * f64::from(n) + 1.0;
+    if n > 0 && is_moderate(z) {
+        return moment_fraction(b, z);
+    }
+    (0..n).fold(first_moment(z), |value, k| {
+        (1.0 / (2.0 * f64::from(k) + 1.0) - value) / z
+    })
+}
+
+/// atan(√z)/√z for z > -1.
+fn first_moment(z: f64) -> f64 {
+    let root = z.abs().sqrt();
+    if z.abs() < 1e-17 {
+        1.0
+    } else if z > 0.0 {
+        root.atan() / root
+    } else if z > -0.25 {
+        root.atanh() / root
+    } else {
+        // log((1 + r)/√(1 - r²))
+        (root.ln_1p() - 0.5 * z.ln_1p()) / root
+    }
+}
+
+/// ∫ₓ^∞ du/(u² + p) = atan2(√p, x)/√p: for x > 0 atan_quotient(0, p/x²)/x, for x ≤ 0 and p > 0 beyond a quarter turn.
+/// Infinite where the pole is at the end, NaN where the integral has none.
+pub fn atan2_quotient(p: f64, x: f64) -> f64 {
+    if p.is_nan() || x.is_nan() {
+        return f64::NAN;
+    }
+    if x == f64::INFINITY || p == f64::INFINITY {
+        return 0.0;
+    }
+    if x > 0.0 && p.abs() < x * x {
+        return atan_quotient(0, p / x / x) / x;
+    }
+    if p > 0.0 {
+        let root = p.sqrt();
+        return root.atan2(x) / root;
+    }
+    let edge = (-p).sqrt();
+    if x < 0.0 && p < 0.0 || x < edge {
+        // with a double root the pole of one sign
+        return if p == 0.0 { f64::INFINITY } else { f64::NAN };
+    }
+    if x > edge {
+        // -p underflowed beside x², or rounds to it
+        return atan_quotient(0, (p / x / x).max(-1.0 + f64::EPSILON)) / x;
+    }
+    f64::INFINITY
+}
+
+/// ∫₀¹ sⁿ / (1 + x s)^{n+1} ds: for n = 0 log(1 + x)/x. The derivative is -(n + 1) times the next one.
+///
+/// It is (1 + x)^{-n-1} ∫₀¹ tⁿ / (1 + y t) dt with y = -x/(1 + x) (t = (1 + x) s/(1 + x s)).
+pub fn log1prel(n: u8, x: f64) -> f64 {
+    if x == 0.0 {
+        return 1.0 / (f64::from(n) + 1.0);
+    }
+    if x.is_nan() || x < -1.0 {
+        return f64::NAN;
+    }
+    if x == -1.0 || x == f64::INFINITY {
+        return if x < 0.0 { f64::INFINITY } else { 0.0 };
+    }
+    if n == 0 {
+        return x.ln_1p() / x;
+    }
+    let y = -x / (1.0 + x);
+    let moment = if is_moderate(y) {
+        2.0 * moment_fraction(2.0 * f64::from(n) + 2.0, y)
+    } else {
+        let first = x.ln_1p() / x * (1.0 + x);
+        (1..=n).fold(first, |value, k| (1.0 / f64::from(k) - value) / y)
+    };
+    moment * (1.0 + x).powi(-i32::from(n) - 1)
+}
+
+impl Complex {
+    /// log(1 + z)/z, and its kin as for reals, with the cut of the logarithm.
+    pub fn log1prel(self, n: u8) -> Self {
+        let (x, y) = (self.re, self.im);
+        if y == 0.0 && x >= -1.0 {
+            // the derivative is negative
+            return complex(log1prel(n, x), -y);
+        }
+        if n == 0 {
+            if x.abs().max(y.abs()) < 1e-9 {
+                return complex(1.0 - 0.5 * x, -0.5 * y);
+            }
+            return self.log1p() / self;
+        }
+        let one = complex(1.0, 0.0);
+        let base = complex(1.0 + x, y);
+        let turned = -(self / base);
+        let moment = if turned.abs() < 0.9 {
+            complex_moment(n, turned)
+        } else {
+            let first = self.log1p() / self * base;
+            (1..=n).fold(first, |value, k| {
+                (complex(1.0 / f64::from(k), 0.0) - value) / turned
+            })
+        };
+        moment * (one / base).powi(i32::from(n) + 1)
+    }
+}
+
+/// ∫₀¹ tⁿ / (1 + y t) dt by the continued fraction.
+fn complex_moment(n: u8, y: Complex) -> Complex {
+    const LEVELS: i32 = 96;
+    let b = 2.0 * f64::from(n) + 2.0;
+    let mut value = complex(b + 2.0 * f64::from(LEVELS), 0.0);
+    for k in (0..LEVELS).rev() {
+        let root = if k % 2 == 0 {
+            b + f64::from(k)
+        } else {
+            f64::from(k) + 1.0
+        };
+        let rest = y.scale(root * root) / value;
+        value = complex(b + 2.0 * f64::from(k) + rest.re, rest.im);
+    }
+    complex(2.0, 0.0) / value
+}
