@@ -92,6 +92,17 @@ pub(crate) fn wide(gpu: &Gpu) -> Result<wgpu::Buffer, Error> {
     fixed(gpu, "wide", bytes, wgpu::BufferUsages::STORAGE)
 }
 
+/// The words of a mesh, which shaders read as storage; room for a header where there is none.
+pub(crate) fn mesh(gpu: &Gpu, words: &[[u32; 4]]) -> Result<wgpu::Buffer, Error> {
+    let bytes = size_of_val(words).max(16);
+    let buffer = fixed(gpu, "mesh", bytes, wgpu::BufferUsages::STORAGE)?;
+    gpu.guarded("upload", || {
+        gpu.queue()
+            .write_buffer(&buffer, 0, bytemuck::cast_slice(words));
+    })?;
+    Ok(buffer)
+}
+
 fn fixed(
     gpu: &Gpu,
     label: &'static str,

@@ -191,13 +191,14 @@ pub struct Renderer {
     most: u32,
 }
 
-/// The buffers at bindings 0 to 3, which every tile reads.
+/// The buffers at bindings 0 to 4, which every tile reads.
 #[derive(Debug)]
 struct Uniforms {
     view: wgpu::Buffer,
     params: wgpu::Buffer,
     settings: wgpu::Buffer,
     wide: wgpu::Buffer,
+    mesh: wgpu::Buffer,
 }
 
 impl Renderer {
@@ -215,6 +216,7 @@ impl Renderer {
                 params: buffers::uniform(gpu, "params", size_of::<[f32; MAX_PARAMS]>())?,
                 settings: buffers::uniform(gpu, "settings", scene.settings_size.max(16))?,
                 wide: buffers::wide(gpu)?,
+                mesh: buffers::mesh(gpu, &scene.mesh)?,
             },
             compute: None,
             fragment: None,
@@ -428,16 +430,18 @@ impl Uniforms {
             params: self.params.clone(),
             settings: self.settings.clone(),
             wide: self.wide.clone(),
+            mesh: self.mesh.clone(),
         }
     }
 
-    /// Bindings 0 to 3.
-    fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 4] {
+    /// Bindings 0 to 4.
+    fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 5] {
         let buffers = [
             (0, &self.view),
             (1, &self.params),
             (2, &self.settings),
             (3, &self.wide),
+            (4, &self.mesh),
         ];
         buffers.map(|(binding, buffer)| wgpu::BindGroupEntry {
             binding,
@@ -466,14 +470,14 @@ struct Recorded {
     stride: usize,
 }
 
-/// Layout of bindings 0 to 3, the last of them storage. Decorated modules need numbers without gaps.
-fn uniform_layout(visibility: wgpu::ShaderStages) -> [wgpu::BindGroupLayoutEntry; 4] {
-    [0, 1, 2, 3].map(|binding| wgpu::BindGroupLayoutEntry {
+/// Layout of bindings 0 to 4, the last two of them storage. Decorated modules need numbers without gaps.
+fn input_layout(visibility: wgpu::ShaderStages) -> [wgpu::BindGroupLayoutEntry; 5] {
+    [0, 1, 2, 3, 4].map(|binding| wgpu::BindGroupLayoutEntry {
         binding,
         visibility,
         ty: wgpu::BindingType::Buffer {
             ty: match binding {
-                3 => wgpu::BufferBindingType::Storage { read_only: true },
+                3 | 4 => wgpu::BufferBindingType::Storage { read_only: true },
                 _ => wgpu::BufferBindingType::Uniform,
             },
             has_dynamic_offset: false,

@@ -63,9 +63,12 @@ fn orbit_axes(camera: Camera, center: vec3f, half_size: vec3f) -> CameraAxes {
     let yaw = camera.yaw * CAMERA_DEGREE;
     let back = direction_from_angles(yaw, clamp(camera.pitch, -89.0, 89.0) * CAMERA_DEGREE);
     let right = vec3f(-sin(yaw), cos(yaw), 0.0);
+    return CameraAxes(center + orbit_distance(camera, half_size) * back, right, cross(back, right), back);
+}
+
+fn orbit_distance(camera: Camera, half_size: vec3f) -> f32 {
     let fitting = select(fitting_distance(half_size, camera_fov(camera)), 8.0 * length(half_size), camera.projection == 1u);
-    let away = select(fitting, camera.distance, camera.distance > 0.0 && camera.projection == 0u);
-    return CameraAxes(center + away * back, right, cross(back, right), back);
+    return select(fitting, camera.distance, camera.distance > 0.0 && camera.projection == 0u);
 }
 
 // From `eye` to `aim`, with the projection of `up` upwards. Where that has no direction some other one is up.
@@ -101,6 +104,32 @@ fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Si
         return Sight(Ray(axes.eye + across, -axes.back), -axes.back, slope, true);
     }
     return Sight(Ray(axes.eye, normalize(across - axes.back)), -axes.back, slope, false);
+}
+
+// A ray as it is seen from where it passes the centre of a scene: however far away the camera is, its origin is only as far
+// from the centre as the ray is, and rounded accordingly.
+struct NearRay {
+    origin: vec3f,     // in the plane through the centre at right angles to the view
+    direction: vec3f,  // of length 1
+    start: f32,        // where the camera is on it
+}
+
+fn near_ray(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> NearRay {
+    let axes = camera_axes(camera, center, half_size);
+    let offset = (pixel - 0.5 * view.size) * pixel_slope(camera, half_size);
+    let across = offset.x * axes.right - offset.y * axes.up;
+    var middle = center;
+    var away = orbit_distance(camera, half_size);
+    if camera.camera == 1u { // not from the eye, which may be far away
+        let behind = dot(center - camera.aim, axes.back);
+        middle = camera.aim + behind * axes.back;
+        away = length(camera.eye - camera.aim) - behind;
+    }
+    if camera.projection == 1u {
+        return NearRay(middle + across, -axes.back, -away);
+    }
+    let along = across - axes.back;
+    return NearRay(middle + away * across, normalize(along), -away * length(along));
 }
 
 // A pixel in world units at distance t along a sight, on a plane at right angles to the camera's view.

@@ -17,9 +17,9 @@ struct View {
 }
 
 @group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(4) var<storage, read_write> image: array<u32>;
+@group(0) @binding(5) var<storage, read_write> image: array<u32>;
 // Which samples of each pixel `sum_main` takes: the first, and how many. They are numbered row by row.
-@group(0) @binding(5) var<uniform> part: vec2u;
+@group(0) @binding(6) var<uniform> part: vec2u;
 
 // The scene's picture: linear rgb, premultiplied by alpha, and alpha at a point of the whole image.
 fn shade(pixel: vec2f) -> vec4f { return vec4f(); }

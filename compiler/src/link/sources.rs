@@ -72,6 +72,8 @@ const SHARED: &str = concat!(
     include_str!("../../shaders/shared/key.wgsl"),
     include_str!("../../shaders/shared/camera.wgsl"),
     include_str!("../../shaders/shared/box.wgsl"),
+    include_str!("../../shaders/shared/shapes.wgsl"),
+    include_str!("../../shaders/shared/mesh.wgsl"),
     include_str!("../../shaders/shared/lighting.wgsl"),
     include_str!("../../shaders/shared/values.wgsl"),
     include_str!("../../shaders/shared/layers.wgsl"),

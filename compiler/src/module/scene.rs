@@ -24,6 +24,8 @@ pub struct SceneModule {
     pub settings_size: usize,
     /// What the formula's numbers are computed with.
     pub tier: Tier,
+    /// The words of the storage `mesh`, of a scene that has one: the host's to fill in. See `shaders/shared/mesh.wgsl`.
+    pub mesh: Vec<[u32; 4]>,
 }
 
 #[derive(Clone, Debug)]
@@ -52,6 +54,7 @@ impl SceneModule {
             layout,
             settings_size,
             tier,
+            mesh: Vec::new(),
         })
     }
 

@@ -1,5 +1,6 @@
 //! Scenes: a WGSL template and a settings record each.
 
+mod additive;
 mod bands;
 mod camera;
 mod checker;
@@ -60,7 +61,7 @@ pub struct Scene {
 /// Every scene.
 #[must_use]
 pub fn scenes() -> &'static [Scene] {
-    static SCENES: [Scene; 16] = [
+    static SCENES: [Scene; 17] = [
         levels::SCENE,
         logcontours::SCENE,
         bands::SCENE,
@@ -77,6 +78,7 @@ pub fn scenes() -> &'static [Scene] {
         volumecut::SCENE,
         scatter::SCENE,
         glow::SCENE,
+        additive::SCENE,
     ];
     &SCENES
 }

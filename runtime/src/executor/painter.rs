@@ -34,6 +34,8 @@ pub struct Painter {
     words: usize,
     /// Steps that the loops of one pixel may take in all.
     pub steps: u64,
+    /// The storage `mesh` of a scene that has one.
+    mesh: Vec<u64>,
 }
 
 impl Painter {
@@ -89,6 +91,7 @@ impl Painter {
             format,
             words: 1,
             steps: MAX_STEPS,
+            mesh: scene.mesh.as_flattened().iter().map(|&w| w.into()).collect(),
         })
     }
 
@@ -230,6 +233,10 @@ impl Painter {
             if let Some(value) = inputs.value(component) {
                 machine.set_uniform(component, component.encode(value));
             }
+        }
+        if let Some(mesh) = self.program.buffer("mesh").and_then(|k| machine.buffer(k)) {
+            mesh.clone_from(&self.mesh);
+            mesh.resize(mesh.len().max(4), 0);
         }
         machine
     }

@@ -1,6 +1,6 @@
 //! Tiles by a compute entry point, into a storage buffer.
 
-use super::{Pipeline, Recorded, Stage, Uniforms, uniform_layout};
+use super::{Pipeline, Recorded, Stage, Uniforms, input_layout};
 use crate::buffers::Growing;
 use crate::tiles::Tile;
 use crate::{Error, Gpu};
@@ -29,9 +29,9 @@ impl ComputeStage {
     ) -> Result<Self, Error> {
         let device = gpu.device();
         let stages = wgpu::ShaderStages::COMPUTE;
-        let [view, params, settings, wide] = uniform_layout(stages);
+        let inputs = input_layout(stages);
         let image = wgpu::BindGroupLayoutEntry {
-            binding: 4,
+            binding: 5,
             visibility: stages,
             ty: wgpu::BindingType::Buffer {
                 ty: wgpu::BufferBindingType::Storage { read_only: false },
@@ -49,7 +49,7 @@ impl ComputeStage {
         gpu.guarded("compiling the compute pipeline", || {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some("compute"),
-                entries: &[view, params, settings, wide, image],
+                entries: &[&inputs[..], &[image]].concat(),
             });
             let pipeline = self::pipeline(gpu, shader, &layout, entry);
             Self {
@@ -116,20 +116,15 @@ impl Stage for ComputeStage {
         let device = gpu.device();
         let encoder = gpu.guarded("recording", || {
             let bindings = self.bindings.get_or_insert_with(|| {
-                let [view, params, settings, wide] = uniforms.entries();
+                let mut entries = uniforms.entries().to_vec();
+                entries.push(wgpu::BindGroupEntry {
+                    binding: 5,
+                    resource: image.as_entire_binding(),
+                });
                 device.create_bind_group(&wgpu::BindGroupDescriptor {
                     label: Some("compute"),
                     layout: &self.layout,
-                    entries: &[
-                        view,
-                        params,
-                        settings,
-                        wgpu::BindGroupEntry {
-                            binding: 4,
-                            resource: image.as_entire_binding(),
-                        },
-                        wide,
-                    ],
+                    entries: &entries,
                 })
             });
             let mut encoder = device.create_command_encoder(&Default::default());

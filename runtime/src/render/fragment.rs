@@ -1,6 +1,6 @@
 //! Tiles by the fragment entry point, into a texture.
 
-use super::{Recorded, Stage, Uniforms, uniform_layout};
+use super::{Recorded, Stage, Uniforms, input_layout};
 use crate::buffers::Growing;
 use crate::tiles::Tile;
 use crate::{Error, Gpu};
@@ -30,7 +30,7 @@ impl FragmentStage {
         gpu.guarded("compiling the render pipeline", || {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some("fragment"),
-                entries: &uniform_layout(wgpu::ShaderStages::FRAGMENT),
+                entries: &input_layout(wgpu::ShaderStages::FRAGMENT),
             });
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some("fragment"),

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::compute::{WORKGROUP, pipeline};
-use super::{Frame, Pipeline, Uniforms, uniform_layout};
+use super::{Frame, Pipeline, Uniforms, input_layout};
 use crate::buffers::{self, Growing};
 use crate::tiles::{Budget, Tile};
 use crate::{Error, Gpu};
@@ -48,9 +48,10 @@ pub(super) struct Drawn {
 impl SumStage {
     pub(super) fn new(gpu: &Gpu, shader: &wgpu::ShaderModule) -> Result<Self, Error> {
         let stages = wgpu::ShaderStages::COMPUTE;
-        let [view, params, settings, wide] = uniform_layout(stages);
+        let inputs = input_layout(stages);
+        let view = inputs[0];
         let image = wgpu::BindGroupLayoutEntry {
-            binding: 4,
+            binding: 5,
             ty: wgpu::BindingType::Buffer {
                 ty: wgpu::BufferBindingType::Storage { read_only: false },
                 has_dynamic_offset: false,
@@ -58,11 +59,11 @@ impl SumStage {
             },
             ..view
         };
-        let part = wgpu::BindGroupLayoutEntry { binding: 5, ..view };
+        let part = wgpu::BindGroupLayoutEntry { binding: 6, ..view };
         let (layout, sum) = gpu.guarded("compiling the pipeline of sums", || {
             let descriptor = wgpu::BindGroupLayoutDescriptor {
                 label: Some("sums"),
-                entries: &[view, params, settings, wide, image, part],
+                entries: &[&inputs[..], &[image, part]].concat(),
             };
             let layout = gpu.device().create_bind_group_layout(&descriptor);
             let sum = pipeline(gpu, shader, &layout, "sum_main");
@@ -184,7 +185,7 @@ impl SumStage {
 
     fn bind(&self, uniforms: &Uniforms, image: &wgpu::Buffer) -> Result<wgpu::BindGroup, Error> {
         let mut entries = uniforms.entries().to_vec();
-        entries.extend([(4, image), (5, &self.part)].map(|(binding, buffer)| {
+        entries.extend([(5, image), (6, &self.part)].map(|(binding, buffer)| {
             wgpu::BindGroupEntry {
                 binding,
                 resource: buffer.as_entire_binding(),

@@ -78,6 +78,8 @@ impl Inputs {
                 (Access::Uniform, bytemuck::bytes_of(&params).to_vec()),
                 (Access::Uniform, frame.settings.to_vec()),
                 (Access::Read, bytemuck::bytes_of(&wide).to_vec()),
+                // a scene without a mesh
+                (Access::Read, vec![0; 16]),
                 (Access::ReadWrite, vec![0; 4]),
             ],
         ))
@@ -126,11 +128,13 @@ impl Inputs {
                 (Access::ReadWrite, vec![0; results]),
                 (Access::Read, bytemuck::bytes_of(&wide).to_vec()),
                 (Access::Uniform, bytemuck::bytes_of(&batch).to_vec()),
+                // the place of a scene's image
+                (Access::ReadWrite, vec![0; 4]),
             ],
         ))
     }
 
-    fn new(tier: Tier, own: [(Access, Vec<u8>); 5]) -> Self {
+    fn new(tier: Tier, own: [(Access, Vec<u8>); 6]) -> Self {
         let trace = (Access::ReadWrite, vec![0; (ROOM + SPARE) as usize * 4]);
         let all = (0..).zip(own.into_iter().chain([trace]));
         let buffers = all.map(|(binding, (access, bytes))| Buffer {

@@ -4,7 +4,7 @@
 // No branch, and the place is kept in a register: drivers copy this to hundreds of sites, and take long to compile
 // branches and accesses of memory.
 
-@group(0) @binding(5) var<storage, read_write> trace: array<u32>;
+@group(0) @binding(6) var<storage, read_write> trace: array<u32>;
 
 // Words in use.
 var<private> used: u32;

@@ -9,7 +9,7 @@ use super::inputs::ROOM;
 use super::site::Shape;
 use crate::Error;
 
-/// Recorders that write to the buffer at binding 5.
+/// Recorders that write to the buffer at binding 6.
 const WRITING: &str = include_str!("record.wgsl");
 const WRITING_DOUBLES: &str = include_str!("record_double.wgsl");
 /// Recorders that do nothing.
@@ -19,7 +19,7 @@ const SILENT_DOUBLES: &str = "alias real = f64; fn record_double(site: u32, valu
 /// What the functions do that a traced shader calls with its values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Recorders {
-    /// They write to the buffer at binding 5.
+    /// They write to the buffer at binding 6.
     Writing,
     /// Nothing: the machine sees the calls by itself.
     Silent,

@@ -13,7 +13,7 @@ struct View {
 }
 
 @group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(4) var<storage, read_write> image: array<u32>;
+@group(0) @binding(5) var<storage, read_write> image: array<u32>;
 
 // 1: a NaN, 2: an infinity.
 var<private> seen: u32;
