@@ -51,7 +51,7 @@ fn real_atan2_quotient(p: f32, x: f32) -> f32 {
     if x > 0.0 && is_infinite(x) || p > 0.0 && is_infinite(p) {
         return 0.0;
     }
-    if p > 0.0 && !(p / x < x) {
+    if p > 0.0 && !(x > 0.0 && p / x < x) {
         let root = sqrt(p);
         return rounded(real_atan2(root, x)) / root;
     }
@@ -145,5 +145,8 @@ fn complex_log1prel(z: vec2f, n: i32) -> vec2f {
             moment = complex_div(vec2f(1.0 / f32(k), 0.0) - moment, y);
         }
     }
-    return complex_mul(moment, complex_small_power(inverse, n + 1));
+    for (var k = 0; k <= n; k++) {
+        moment = complex_mul(moment, inverse);
+    }
+    return moment;
 }

@@ -156,5 +156,8 @@ fn complex_log1prel(z: Complex, n: i32) -> Complex {
             moment = complex_div(complex_sub(first, moment), y);
         }
     }
-    return complex_mul(moment, complex_small_power(inverse, n + 1));
+    for (var k = 0; k <= n; k++) {
+        moment = complex_mul(moment, inverse);
+    }
+    return moment;
 }

@@ -67,7 +67,7 @@ pub fn atan2_quotient(p: f64, x: f64) -> f64 {
     if x == f64::INFINITY || p == f64::INFINITY {
         return 0.0;
     }
-    if x > 0.0 && p.abs() < x * x {
+    if x > 0.0 && p < x * x && p > -0.5 * x * x {
         return atan_quotient(0, p / x / x) / x;
     }
     if p > 0.0 {
@@ -75,15 +75,18 @@ pub fn atan2_quotient(p: f64, x: f64) -> f64 {
         return root.atan2(x) / root;
     }
     let edge = (-p).sqrt();
-    if x < 0.0 && p < 0.0 || x < edge {
-        // with a double root the pole of one sign
+    if x <= 0.0 {
+        // at a double root the integrand has one sign
         return if p == 0.0 { f64::INFINITY } else { f64::NAN };
     }
-    if x > edge {
-        // -p underflowed beside x², or rounds to it
-        return atan_quotient(0, (p / x / x).max(-1.0 + f64::EPSILON)) / x;
+    let rest = x.mul_add(x, p);
+    if rest < 0.0 {
+        f64::NAN
+    } else if rest == 0.0 {
+        f64::INFINITY
+    } else {
+        ((x + edge) / rest.sqrt()).ln() / edge
     }
-    f64::INFINITY
 }
 
 /// ∫₀¹ sⁿ / (1 + x s)^{n+1} ds: for n = 0 log(1 + x)/x. The derivative is -(n + 1) times the next one.
