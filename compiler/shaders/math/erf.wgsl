@@ -13,6 +13,13 @@ fn real_gauss(x: f32) -> f32 {
     return e - e * square.y;
 }
 
+/// e^(x y); the rounding of the product does not count.
+fn real_exp_of_product(x: f32, y: f32) -> f32 {
+    let product = two_product(x, y, hidden_zero_of(x, y));
+    let e = exp_scaled(product.x, 0);
+    return select(e, e + e * product.y, magnitude(product.x) < 88.7);
+}
+
 /// e^(-(x + y)²); the rounding of the sum does not count.
 fn real_gauss_of_sum(x: f32, y: f32) -> f32 {
     let sum = two_sum(x, y, hidden_zero_of(x, y));
@@ -99,17 +106,25 @@ fn real_erfcx(x: f32, n: i32) -> f32 {
 
 /// The same for x ≥ 1: f(k)/f(k-1) = 1/(2 x + 2 (k + 1) f(k+1)/f(k)), from an index where it hardly matters.
 fn repeated_right(x: f32, n: i32) -> f32 {
-    let y = min(x, 1.5e19);
-    let end = n + 5 + i32(24.0 / (y * y));
-    var ratio = 1.0 / (y + sqrt(y * y + 2.0 * f32(end)));
+    if x > 1e6 {
+        // the first term of the asymptotic series (DLMF 7.18.14)
+        return 1.1283792 * small_power(0.5 / x, n + 1);
+    }
+    let end = n + 5 + i32(24.0 / (x * x));
+    var ratio = 1.0 / (x + sqrt(x * x + 2.0 * f32(end)));
     var value = 1.1283792;
     for (var k = end - 1; k >= 0; k--) {
-        ratio = 0.5 / (y + f32(k + 1) * ratio);
+        ratio = 0.5 / (x + f32(k + 1) * ratio);
         if k <= n {
             value *= ratio;
         }
     }
-    return select(value, 0.0, x > 1.5e19);
+    return value;
+}
+
+/// v √π/2
+fn times_half_root_pi(v: f32) -> f32 {
+    return v * 0.88622695 + v * -2.66232e-08;
 }
 
 /// Nodes and weights on the right of Gauss and Legendre's rule of 8 points (DLMF 3.5.v).
@@ -128,7 +143,7 @@ fn tail_mass(c: f32, w: f32) -> f32 {
     let steepness = 4.0 * c * w;
     if steepness > 1.5 {
         let far = exp_scaled(-min(steepness, 120.0), 0) * erfcx_right(c + w);
-        return 0.8862269 * (erfcx_right(c - w) - far);
+        return times_half_root_pi(erfcx_right(c - w) - far);
     }
     var sum = 0.0;
     for (var k = 0; k < 8; k++) {
@@ -159,13 +174,12 @@ fn real_gauss_mass_moment(centre: f32, width: f32, k: i32) -> f32 {
     }
     // Σ k!/j! (2w)^(k - j)/(k - j)! j! iʲerfc
     var factor = 1.0;
-    var near = 0.0;
     for (var j = k; j >= 0; j--) {
         sum += factor * real_erfcx(c + w, j);
         factor *= 2.0 * w / f32(k - j + 1);
     }
-    near = real_erfcx(c - w, k) - exp_scaled(-min(steepness, 120.0), 0) * sum;
-    return 0.8862269 * select(f32(k * (k - 1)), 1.0, k < 2) * near;
+    let near = real_erfcx(c - w, k) - exp_scaled(-min(steepness, 120.0), 0) * sum;
+    return times_half_root_pi(select(f32(k * (k - 1)), 1.0, k < 2) * near);
 }
 
 /// x² + p, rounded once.
@@ -199,7 +213,7 @@ fn real_gauss_mass_scaled(c: f32, w: f32) -> f32 {
     if b <= a {
         return flip_sign(tail_mass(a, b), sign_bit(w));
     }
-    return flip_sign(0.8862269 * (real_erf(b + a) + real_erf(b - a)), sign_bit(w));
+    return flip_sign(times_half_root_pi(real_erf(b + a) + real_erf(b - a)), sign_bit(w));
 }
 
 /// log(1 + e^x) without overflow: x + log1p(e^-x) right of 0.

@@ -5,7 +5,7 @@
 fn exp_of_square(x: real, falls: bool) -> real {
     let square = long_product(x, x);
     let e = real_exp(flip_if(square.hi, falls));
-    return real_add(e, real_mul(e, flip_if(square.lo, falls)));
+    return choose(is_infinite(e), e, real_add(e, real_mul(e, flip_if(square.lo, falls))));
 }
 
 /// e^(-x²)
@@ -14,6 +14,13 @@ fn real_gauss(x: real) -> real {
         return x;
     }
     return exp_of_square(clamped(real_abs(x), 30.0), true);
+}
+
+/// e^(x y); the rounding of the product does not count.
+fn real_exp_of_product(x: real, y: real) -> real {
+    let product = long_product(x, y);
+    let e = real_exp(product.hi);
+    return choose(is_below(real_abs(product.hi), 88.0), real_add(e, real_mul(e, product.lo)), e);
 }
 
 /// e^(-(x + y)²); the rounding of the sum does not count.
@@ -156,19 +163,21 @@ fn real_erfcx(x: real, n: i32) -> real {
 
 /// The same for x ≥ 1: f(k)/f(k-1) = 1/(2 x + 2 (k + 1) f(k+1)/f(k)), from an index where it hardly matters.
 fn repeated_right(x: real, n: i32) -> real {
-    let far = is_above(x, 1.5e19);
-    let y = clamped(x, 1.5e19);
-    let y32 = real_to_f32(y);
-    let end = n + 10 + i32(100.0 / (y32 * y32));
+    if is_above(x, 1e9) {
+        // the first term of the asymptotic series (DLMF 7.18.14)
+        return real_mul(two_by_root_pi(), small_power(real_div(num(0.5), x), n + 1));
+    }
+    let y32 = real_to_f32(x);
+    let end = n + 20 + i32(180.0 / (y32 * y32));
     var ratio = num(1.0 / (y32 + sqrt(y32 * y32 + 2.0 * f32(end))));
     var value = two_by_root_pi();
     for (var k = end - 1; k >= 0; k--) {
-        ratio = real_div(num(0.5), real_add(y, mul32(ratio, f32(k + 1))));
+        ratio = real_div(num(0.5), real_add(x, mul32(ratio, f32(k + 1))));
         if k <= n {
             value = real_mul(value, ratio);
         }
     }
-    return choose(far, num(0.0), value);
+    return value;
 }
 
 /// Nodes and weights on the right of Gauss and Legendre's rule of 12 points (DLMF 3.5.v); special.py.

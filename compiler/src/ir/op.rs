@@ -134,6 +134,8 @@ pub enum Prim {
     GaussMassScaled,
     /// ∫ (u - a)ᵏ e^{a² - u²} du over an interval to the right of 0 that begins at a, by its centre and half-width.
     GaussMassMoment(u8),
+    /// e^{x y}
+    ExpOfProduct,
     /// x² + p, rounded once.
     SquarePlus,
     Log1pExp,

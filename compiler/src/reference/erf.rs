@@ -60,6 +60,16 @@ pub fn gauss(x: f64) -> f64 {
     e - e * low
 }
 
+/// e^{x y}; the rounding of the product does not count.
+pub fn exp_of_product(x: f64, y: f64) -> f64 {
+    let product = x * y;
+    let e = product.exp();
+    if product.abs() > 800.0 || e.is_infinite() || e.is_nan() {
+        return e;
+    }
+    e + e * x.mul_add(y, -product)
+}
+
 /// e^{-(x + y)²}; the rounding of the sum does not count.
 pub fn gauss_of_sum(x: f64, y: f64) -> f64 {
     let sum = x + y;
@@ -149,6 +159,10 @@ pub fn erfcx(n: u8, x: f64) -> f64 {
 
 /// The same for x ≥ 1/2: f_k / f_{k-1} = 1/(2 x + 2 (k + 1) f_{k+1}/f_k), from an index where it hardly matters.
 fn repeated_right(n: u8, x: f64) -> f64 {
+    if x > 1e9 {
+        // the first term of the asymptotic series (DLMF 7.18.14)
+        return TWO_BY_ROOT_PI * (0.5 / x).powi(i32::from(n) + 1);
+    }
     let last = (180.0 / (x * x)).ceil() + f64::from(n) + 20.0;
     let mut ratio = 1.0 / (x + (x * x + 2.0 * last).sqrt());
     let mut value = TWO_BY_ROOT_PI;

@@ -120,7 +120,7 @@ fn spherical() -> [Row; 2] {
     ]
 }
 
-fn errors() -> [Row; 5] {
+fn errors() -> [Row; 6] {
     let one = |prim, name, usage, doc, real, derivative, gpu, cost| Row {
         prim,
         mnemonic: name,
@@ -202,6 +202,19 @@ fn errors() -> [Row; 5] {
                     g.mul(factor, value)
                 },
                 Gpu::Library("real_gauss_of_sum", None),
+                20,
+            )
+        },
+        Row {
+            typing: Typing::Real(2),
+            ..one(
+                Prim::ExpOfProduct,
+                "exp_of_product",
+                "",
+                "exp(x y), with no error of the product",
+                |a: &[f64]| erf::exp_of_product(a[0], a[1]),
+                |g, args, value, k| g.mul(args[1 - k], value),
+                Gpu::Library("real_exp_of_product", None),
                 20,
             )
         },
@@ -317,12 +330,12 @@ fn atan2_quotient_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id
         let inverse = reciprocal(g, sum);
         return g.neg(inverse);
     }
-    let quotient = g.div(x, sum);
+    let first = g.div(p, x);
+    let ratio = g.div(first, x);
+    let quotient = quotient_by_square(g, x, sum, first);
     let difference = g.sub(quotient, value);
     let double = scaled(g, 2.0, p);
     let far = g.div(difference, double);
-    let ratio = g.div(p, x);
-    let ratio = g.div(ratio, x);
     let inner = g.apply(Prim::AtanQuotient(0), &[ratio]);
     let mut near = atan_quotient_slope(g, ratio, 0, inner);
     for _ in 0..3 {
@@ -335,6 +348,16 @@ fn atan2_quotient_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id
     let moderate = g.apply(Prim::And, &[above, below]);
     let is_near = g.apply(Prim::And, &[right, moderate]);
     g.apply(Prim::Select, &[is_near, near, far])
+}
+
+/// x/(x² + p) from x² + p and p/x: 1/(x + p/x) where x² may overflow.
+fn quotient_by_square(g: &mut Graph, x: Id, sum: Id, first: Id) -> Id {
+    let plain = g.div(x, sum);
+    let inverse = g.add(x, first);
+    let inverse = reciprocal(g, inverse);
+    let size = call(g, Prim::Abs, x);
+    let large = g.real(1e18);
+    where_less(g, large, size, inverse, plain)
 }
 
 /// ∫ sⁿ/(1 + z s)ⁿ⁺¹ over [0, 1] has the derivative -(n + 1) times the next one.
@@ -510,13 +533,11 @@ fn moment_slope(g: &mut Graph, c: Id, w: Id, n: u8, k: usize) -> Id {
         let slope = scaled(g, -2.0, next);
         return g.mul(sign, slope);
     }
-    let product = g.mul(c, w);
-    let size = call(g, Prim::Abs, product);
-    let steepness = scaled(g, -4.0, size);
-    let mut end = call(g, Prim::Exp, steepness);
+    let sizes = [c, w].map(|a| g.apply(Prim::Abs, &[a]));
+    let rate = scaled(g, -4.0, sizes[0]);
+    let mut end = g.apply(Prim::ExpOfProduct, &[rate, sizes[1]]);
     if n > 0 {
-        let size = call(g, Prim::Abs, w);
-        let length = scaled(g, 2.0, size);
+        let length = scaled(g, 2.0, sizes[1]);
         let power = g.apply(Prim::PowInt(n.into()), &[length]);
         end = g.mul(power, end);
     }
