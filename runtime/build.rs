@@ -5,12 +5,15 @@ use std::path::Path;
 use std::{env, fs};
 
 /// In the order in which `accuracy/tables.rs` reads them.
-const TABLES: [&str; 5] = [
+const TABLES: [&str; 8] = [
     "oracle/real.tsv",
     "oracle/complex.tsv",
     "functions/real_edges.tsv",
     "functions/complex_edges.tsv",
+    "functions/integral_edges.tsv",
+    "functions/integral_complex.tsv",
     "functions/wide.tsv",
+    "functions/integral_wide.tsv",
 ];
 /// Between two tables.
 const SEPARATOR: u8 = 0x0c;

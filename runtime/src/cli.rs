@@ -14,6 +14,7 @@ mod fmt;
 mod functions;
 mod gallery;
 mod json;
+mod mesh;
 mod overrides;
 mod place;
 mod probe;
@@ -125,6 +126,9 @@ struct Settings {
     /// The animation clock in seconds
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     time: f64,
+    /// The solid of a scene with `shape = mesh`: a closed mesh in an .obj, .gltf or .glb file
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<PathBuf>,
 }
 
 /// Where to compute.

@@ -57,6 +57,13 @@ pub enum Error {
     },
     /// The processor cannot run the shader, or gave up.
     Executor(Fault),
+    /// A file is no mesh that can be drawn.
+    Mesh {
+        /// The file.
+        path: std::path::PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// Reading or writing failed.
     Io(std::io::Error),
 }
@@ -98,6 +105,7 @@ impl fmt::Display for Error {
             ),
             Self::Invalid { reason } => f.write_str(reason),
             Self::Executor(fault) => fault.fmt(f),
+            Self::Mesh { path, reason } => write!(f, "mesh {}: {reason}", path.display()),
             Self::Io(error) => error.fmt(f),
         }
     }

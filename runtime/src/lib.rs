@@ -29,6 +29,7 @@ pub mod evaluate;
 pub mod executor;
 pub mod image_file;
 pub mod kernel;
+pub mod mesh;
 pub mod probe;
 pub mod render;
 pub mod rows;

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Write tests/data/functions/{integral_edges,integral_wide,integral_families}.tsv: the building blocks of ray integrals.
+"""Write tests/data/functions/integral_{edges,complex,wide,families}.tsv: the building blocks of ray integrals.
 
 usage: integrals.py [OUT_DIR]      (needs mpmath; default OUT_DIR: ../data/functions beside this file)
 
-The first two have the formats of real_edges.tsv and wide.tsv, for what has a name in the language. In the third,
+The first three have the formats of real_edges.tsv, complex_edges.tsv and wide.tsv, for what has a name in the language. In the last,
 `family order arguments value derivative`, are all members of the families. Everything by definition, with 60 digits and more:
 integrals by their closed forms or by mpmath's quadrature, derivatives by those of the integrand.
 """
@@ -116,7 +116,7 @@ def erfc(x):
 
 
 def mass(c, w):
-    with mp.workdps(400):
+    with mp.workdps(600):
         c, w = mp.mpf(c), mp.mpf(w)
         a, b = c - w, c + w
         if a > 0 and b > 0 or a < 0 and b < 0:
@@ -143,13 +143,14 @@ def scaled_mass(c, w):
 
 
 def scaled_mass_slopes(c, w):
-    with mp.workdps(400):
-        h = mp.mpf(10) ** -150
+    """With m the distance from 0 the mass is multiplied by e^(m²), whose derivative is 2 m sign(c) by c, -2 m sign(w) by w."""
+    with mp.workdps(600):
         c, w = mp.mpf(c), mp.mpf(w)
-        hc, hw = h * max(1, abs(c)), h * max(abs(w), mp.mpf(10) ** -20)
-        by_c = (scaled_mass(c + hc, w) - scaled_mass(c - hc, w)) / (2 * hc)
-        by_w = (scaled_mass(c, w + hw) - scaled_mass(c, w - hw)) / (2 * hw)
-        return by_c, by_w
+        m = abs(c) - abs(w)
+        if m <= 0:
+            return mass_slopes(c, w)
+        value, fall = scaled_mass(c, w), mp.exp(-4 * abs(c * w))
+        return mp.sign(c * w) * (fall - 1) + 2 * m * mp.sign(c) * value, 1 + fall - 2 * m * mp.sign(w) * value
 
 
 def log1pexp(x):
@@ -229,8 +230,6 @@ def edge_rows():
         for x, y in dict.fromkeys((f32(a), f32(b)) for a, b in points):
             v = value(mp.mpf(x), mp.mpf(y))
             d = slopes(mp.mpf(x), mp.mpf(y))
-            if name == "gaussmassx" and abs(abs(x) - abs(y)) < 1e-3 * abs(x):
-                d = ("-", "-")  # a kink of the second derivative: the difference quotient is not good
             yield name, x, y, v, *d, remark(v)
     for name in ("gaussmass", "gaussmassx"):
         for c, w, v in [(0.0, INF, mp.sqrt(mp.pi)), (3.0, -INF, -mp.sqrt(mp.pi)), (INF, 2.0, 0.0), (-INF, 1.0, 0.0)]:
@@ -300,6 +299,42 @@ def wide_rows():
                 yield name, args, [v], list(d)
 
 
+SIDE = mp.mpf(10) ** -150
+smear = lambda v: (-SIDE if math.copysign(1, v) < 0 else SIDE) if v == 0 else mp.mpf(v)
+
+
+def complex_log1prel(z):
+    with mp.workdps(400):
+        value = mp.log(1 + z) / z
+        return value, (1 / (1 + z) - value) / z
+
+
+def complex_rows():
+    both = lambda v: (v, -v)
+    grid = [(a, b) for x in (0.0, 0.5, 1.0, 2.0) for y in (0.0, 0.5, 1.0, 2.0) for a in both(x) for b in both(y)]
+    hard = [(-1.0, 1e-4), (-1.0, -1e-10), (-1 + 2.0**-24, 1e-20), (1e-10, 1e-10), (1e-20, -1e-30), (1e-4, -1e-4), (-0.9, 0.3), (-1.6, 0.8),
+            (-0.4, 0.8), (-7.0, 1e-30), (-7.0, 0.0), (-7.0, -0.0), (1e-3, 1e-20), (3e-3, 3e-3), (-0.75, 0.0), (9.0, -0.0), (0.1, 4.0), (-2.1, -3.0)]
+    far = [(1e10, 1.0), (1.0, 1e10), (-1e10, 0.0), (1e20, 1e20), (-1e20, 1e15), (3e35, 1.0), (0.0, -3e35)]
+    for x, y in dict((repr((f32(a), f32(b))), (f32(a), f32(b))) for a, b in grid + hard + far).values():
+        if (x, y) == (-1.0, 0.0):
+            yield x, y, INF, -y, None, "pole"
+            continue
+        value, slope = complex_log1prel(mp.mpc(smear(x), smear(y)))
+        yield x, y, value.real, value.imag, slope, "cut" if y == 0 and x < -1 else remark(value.real)
+
+
+def complex_wide_rows():
+    rng = random.Random(11)
+    places = (
+        lambda: (rng.uniform(-4, 4), rng.uniform(-4, 4)), lambda: (2.0 ** rng.uniform(-20, 0) * rng.choice((1, -1)), 2.0 ** rng.uniform(-20, 0)),
+        lambda: (-1 + 2.0 ** rng.uniform(-12, -1) * rng.choice((1, -1)), 2.0 ** rng.uniform(-12, -1)), lambda: (rng.uniform(-9, -1), 2.0 ** rng.uniform(-40, -4)),
+        lambda: (2.0 ** rng.uniform(3, 30), -(2.0 ** rng.uniform(3, 30))),
+    )
+    for k in range(60):
+        x, y = (widened(rng, v) for v in places[k % 5]())
+        yield "log1prel", (x, y), *complex_log1prel(mp.mpc(x, y))
+
+
 def family_rows():
     rng = random.Random(9)
     around = lambda *xs: [s * x * (1 + e) for x in xs for e in (-1e-3, 1e-3) for s in (1, -1)]
@@ -335,6 +370,10 @@ def family_rows():
         yield "gauss", 0, [x], bell(mp.mpf(x)), -2 * mp.mpf(x) * bell(mp.mpf(x))
 
 
+def text(values):
+    return " ".join(mp.nstr(v, 25) for v in values)
+
+
 def main():
     here = os.path.dirname(os.path.abspath(__file__))
     out = sys.argv[1] if len(sys.argv) > 1 else os.path.join(here, "..", "data", "functions")
@@ -350,8 +389,14 @@ def main():
     with open(os.path.join(out, "integral_wide.tsv"), "w", encoding="utf-8") as fh:
         fh.write("# arguments of more bits than float32; written by tests/oracle/integrals.py\n# function\tdomain\targuments\tvalue\tderivative\n")
         for name, args, v, d in wide_rows():
-            text = lambda xs: " ".join(mp.nstr(x, 25) for x in xs)
             fh.write("\t".join([name, "real", " ".join(map(repr, args)), text(v), text(d)]) + "\n")
+        for name, args, v, d in complex_wide_rows():
+            fh.write("\t".join([name, "complex", " ".join(map(repr, args)), text((v.real, v.imag)), text((d.real, d.imag))]) + "\n")
+    with open(os.path.join(out, "integral_complex.tsv"), "w", encoding="utf-8") as fh:
+        fh.write("# edges of the building blocks of ray integrals; written by tests/oracle/integrals.py\n# function\tz.re\tz.im\tw.re\tw.im\tf.re\tf.im\td.re\td.im\tnotes\n")
+        for x, y, re, im, d, notes in complex_rows():
+            slopes = ["-", "-"] if d is None else [show(d.real), show(d.imag)]
+            fh.write("\t".join(["log1prel", show(x), show(y), "-", "-", show(re), show(im), *slopes, notes]) + "\n")
 
 
 if __name__ == "__main__":

@@ -13,11 +13,26 @@ fn real_gauss(x: f32) -> f32 {
     return e - e * square.y;
 }
 
+/// e^(x y); the rounding of the product does not count.
+fn real_exp_of_product(x: f32, y: f32) -> f32 {
+    let product = two_product(x, y, hidden_zero_of(x, y));
+    let e = exp_scaled(product.x, 0);
+    return select(e, e + e * product.y, magnitude(product.x) < 88.7);
+}
+
+/// e^(-(x + y)²); the rounding of the sum does not count.
+fn real_gauss_of_sum(x: f32, y: f32) -> f32 {
+    let sum = two_sum(x, y, hidden_zero_of(x, y));
+    let e = real_gauss(sum.x);
+    return select(e, e - 2.0 * e * sum.x * sum.y, magnitude(sum.x) < 12.0);
+}
+
 /// erf x = x (2/√π + z P(z)), z = x², |x| ≤ 1; coefficients.py, erf.
 fn erf_near(x: f32) -> f32 {
     let z = x * x;
-    return x * 1.1283792 + x * z * (-0.3761263 + z * (0.112836175 + z * (-0.026854916 + z * (0.005190162 + z * (
+    let rest = -5.8635383e-08 + z * (-0.3761263 + z * (0.112836175 + z * (-0.026854916 + z * (0.005190162 + z * (
         -0.0008024816 + z * 7.8986865e-05)))));
+    return select(x * 1.1283792 + x * rest, x * 1.1283792, z == 0.0);
 }
 
 /// erf x.
@@ -51,6 +66,9 @@ fn erfcx_right(x: f32) -> f32 {
     if x > 1e8 {
         return 0.5641896 / x;
     }
+    if x < 0.5 {
+        return exp_scaled(x * x, 0) * (1.0 - erf_near(x));
+    }
     let y = (x - 3.0) / (x + 3.0);
     let p = 1.253008 + y * (-0.13562106 + y * (-0.047562186 + y * (0.12964386 + y * (-0.11927503 + y * (0.06831814 + y * (
         -0.02376432 + y * (0.0024952737 + y * (0.0018759916 + y * (-0.0007223943 + y * (-9.293236e-05
@@ -70,10 +88,10 @@ fn real_erfcx(x: f32, n: i32) -> f32 {
     let a = magnitude(x);
     var value = erfcx_right(a);
     if sign_is_set(x) {
-        if a > 9.5 {
+        let square = two_product(a, a, hidden_zero(a));
+        if a > 10.0 || square.x > 88.72 {
             return make_infinity(1.0);
         }
-        let square = two_product(a, a, hidden_zero(a));
         let e = exp_scaled(square.x, 0);
         value = 2.0 * (e + e * square.y) - value;
     }
@@ -88,39 +106,91 @@ fn real_erfcx(x: f32, n: i32) -> f32 {
 
 /// The same for x ≥ 1: f(k)/f(k-1) = 1/(2 x + 2 (k + 1) f(k+1)/f(k)), from an index where it hardly matters.
 fn repeated_right(x: f32, n: i32) -> f32 {
-    let y = min(x, 1e15);
-    let end = n + 5 + i32(24.0 / (y * y));
-    var ratio = 1.0 / (y + sqrt(y * y + 2.0 * f32(end)));
+    if x > 1e6 {
+        // the first term of the asymptotic series (DLMF 7.18.14)
+        return 1.1283792 * small_power(0.5 / x, n + 1);
+    }
+    let end = n + 5 + i32(24.0 / (x * x));
+    var ratio = 1.0 / (x + sqrt(x * x + 2.0 * f32(end)));
     var value = 1.1283792;
     for (var k = end - 1; k >= 0; k--) {
-        ratio = 0.5 / (y + f32(k + 1) * ratio);
+        ratio = 0.5 / (x + f32(k + 1) * ratio);
         if k <= n {
             value *= ratio;
         }
     }
-    return select(value, 0.0, x > 1e15 && n > 0);
+    return value;
+}
+
+/// v √π/2
+fn times_half_root_pi(v: f32) -> f32 {
+    return v * 0.88622695 + v * -2.66232e-08;
+}
+
+/// Nodes and weights on the right of Gauss and Legendre's rule of 8 points (DLMF 3.5.v).
+fn gauss_node(k: i32) -> vec2f {
+    switch k {
+        case 0: { return vec2f(0.96028984, 0.101228535); }
+        case 1: { return vec2f(0.7966665, 0.22238104); }
+        case 2: { return vec2f(0.5255324, 0.31370664); }
+        default: { return vec2f(0.18343464, 0.36268377); }
+    }
 }
 
 /// ∫ e^(-u²) du over [c - w, c + w], over the greatest value of e^(-u²) there, 0 ≤ w ≤ c. Where the ends differ enough the
-/// difference of erfcx, else Gauss and Legendre's rule of six points (DLMF 3.5.v): u² - (c - w)² = (u - c + w)(u + c - w).
+/// difference of erfcx, else Gauss and Legendre's rule (DLMF 3.5.v): u² - (c - w)² = (u - c + w)(u + c - w).
 fn tail_mass(c: f32, w: f32) -> f32 {
     let steepness = 4.0 * c * w;
     if steepness > 1.5 {
         let far = exp_scaled(-min(steepness, 120.0), 0) * erfcx_right(c + w);
-        return 0.8862269 * (erfcx_right(c - w) - far);
+        return times_half_root_pi(erfcx_right(c - w) - far);
     }
     var sum = 0.0;
-    for (var k = 0; k < 6; k++) {
-        var node = vec2f(0.9324695, 0.1713245);
-        if k > 3 {
-            node = vec2f(0.23861919, 0.46791393);
-        } else if k > 1 {
-            node = vec2f(0.6612094, 0.36076158);
-        }
+    for (var k = 0; k < 8; k++) {
+        let node = gauss_node(k >> 1u);
         let s = select(node.x, -node.x, (k & 1) == 0);
         sum += node.y * exp_scaled(-w * (1.0 + s) * (2.0 * c + w * (s - 1.0)), 0);
     }
     return w * sum;
+}
+
+/// ∫ tᵏ e^(-t² - 2 a t) dt over [0, 2 |w|] with a = |c| - |w|, for |w| ≤ |c| and k ≤ 3. Where the exponent changes enough the
+/// integral over all t > 0, which is √π/2 k! e^(a²) iᵏerfc a (DLMF 7.18.2), less that from 2 |w| on.
+fn real_gauss_mass_moment(centre: f32, width: f32, k: i32) -> f32 {
+    let c = magnitude(centre);
+    let w = magnitude(width);
+    let steepness = 4.0 * c * w;
+    if is_nan(c) || is_nan(w) || w > c {
+        return make_nan(c);
+    }
+    var sum = 0.0;
+    if steepness <= 1.5 + f32(k) {
+        for (var i = 0; i < 8; i++) {
+            let node = gauss_node(i >> 1u);
+            let t = w * (1.0 + select(node.x, -node.x, (i & 1) == 0));
+            sum += node.y * small_power(t, k) * exp_scaled(-t * (2.0 * (c - w) + t), 0);
+        }
+        return w * sum;
+    }
+    // Σ k!/j! (2w)^(k - j)/(k - j)! j! iʲerfc
+    var factor = 1.0;
+    for (var j = k; j >= 0; j--) {
+        sum += factor * real_erfcx(c + w, j);
+        factor *= 2.0 * w / f32(k - j + 1);
+    }
+    let near = real_erfcx(c - w, k) - exp_scaled(-min(steepness, 120.0), 0) * sum;
+    return times_half_root_pi(select(f32(k * (k - 1)), 1.0, k < 2) * near);
+}
+
+/// x² + p, rounded once.
+fn real_square_plus(x: f32, p: f32) -> f32 {
+    let zero = hidden_zero_of(x, p);
+    let square = two_product(x, x, zero);
+    if !(square.x < 1e38) || magnitude(p) > 1e38 {
+        return square.x + p;
+    }
+    let sum = two_sum(square.x, p, zero);
+    return sum.x + opaque(sum.y + square.y, zero);
 }
 
 /// The integral of e^(-u²) over the interval with centre c and half-width w. Odd in w.
@@ -130,13 +200,7 @@ fn real_gauss_mass(c: f32, w: f32) -> f32 {
     if b > a || is_nan(c) || is_nan(w) {
         return real_gauss_mass_scaled(c, w);
     }
-    let near = two_sum(a, -b, hidden_zero_of(a, b));
-    if near.x > 12.0 {
-        return flip_sign(0.0, sign_bit(w));
-    }
-    // the rounding of c - w matters in the exponent
-    let size = tail_mass(a, b) * real_gauss(near.x) * (1.0 - 2.0 * near.x * near.y);
-    return flip_sign(size, sign_bit(w));
+    return flip_sign(tail_mass(a, b) * real_gauss_of_sum(a, -b), sign_bit(w));
 }
 
 /// The same, divided by the greatest value of e^(-u²) in the interval.
@@ -149,7 +213,7 @@ fn real_gauss_mass_scaled(c: f32, w: f32) -> f32 {
     if b <= a {
         return flip_sign(tail_mass(a, b), sign_bit(w));
     }
-    return flip_sign(0.8862269 * (real_erf(b + a) + real_erf(b - a)), sign_bit(w));
+    return flip_sign(times_half_root_pi(real_erf(b + a) + real_erf(b - a)), sign_bit(w));
 }
 
 /// log(1 + e^x) without overflow: x + log1p(e^-x) right of 0.

@@ -2,11 +2,16 @@
 // derivatives need. Continued fraction: Gauss' for F(1, b/2; b/2 + 1; -z) (Cuyt, Petersen, Verdonk, Waadeland, Jones,
 // "Handbook of Continued Fractions for Special Functions", 2008, section 15.3).
 
+/// How many levels are enough: two gain a factor of (u + √(u² - 1))² with u = |1 + 2/z|.
+fn fraction_levels(z: f32) -> i32 {
+    let u = abs(1.0 + 2.0 / select(z, 1e-4, magnitude(z) < 1e-4));
+    return clamp(i32(18.0 / log(u + sqrt(max(u * u - 1.0, 0.0)))) + 3, 4, 32);
+}
+
 /// ∫₀¹ s^(b-1) / (1 + z s²) ds = 1/(b + b² z/(b + 2 + 2² z/(b + 4 + (b + 2)² z/(b + 6 + 4² z/(b + 8 + …))))),
-/// -0.9 ≤ z ≤ 3. Each level gains a factor of √(1 + 1/|z|) + √(1/|z|) or so.
+/// -0.9 ≤ z ≤ 3.
 fn moment_fraction(b: f32, z: f32) -> f32 {
-    let x = abs(1.0 + 2.0 / select(z, 1e-4, magnitude(z) < 1e-4));
-    let levels = clamp(i32(18.0 / log(x + sqrt(max(x * x - 1.0, 0.0)))) + 3, 4, 32);
+    let levels = fraction_levels(z);
     var value = b + 2.0 * f32(levels);
     for (var k = levels - 1; k >= 0; k--) {
         let root = select(f32(k) + 1.0, b + f32(k), (k & 1) == 0);
@@ -51,7 +56,7 @@ fn real_atan2_quotient(p: f32, x: f32) -> f32 {
     if x > 0.0 && is_infinite(x) || p > 0.0 && is_infinite(p) {
         return 0.0;
     }
-    if p > 0.0 && !(p / x < x) {
+    if p > 0.0 && !(x > 0.0 && p / x < x) {
         let root = sqrt(p);
         return rounded(real_atan2(root, x)) / root;
     }
@@ -77,12 +82,22 @@ fn real_atan2_quotient(p: f32, x: f32) -> f32 {
     return times_power_of_two(real_log((y + root) / sqrt(rest)) / root, k);
 }
 
-/// ∫₀¹ sⁿ / (1 + x s)^(n+1) ds, n ≤ 5: for n = 0 log(1 + x)/x. The derivative is -(n + 1) times the next one.
-/// It is (1 + x)^(-n-1) ∫₀¹ tⁿ / (1 + y t) dt with y = -x/(1 + x).
-fn real_log1prel(x: f32, n: i32) -> f32 {
-    if magnitude(x) < 1e-9 {
-        return 1.0 / (f32(n) + 1.0);
+/// ∫₀¹ (1 - t)ⁿ / (1 + x t) dt for -0.6 ≤ x ≤ 3, by the fraction of F(1, 1; n + 2; -x):
+/// 1/(n + 1 + (n + 1) x/(n + 2 + (n + 1) x/(n + 3 + 2 (n + 2) x/(n + 4 + 2 (n + 2) x/(n + 5 + …))))).
+fn falling_fraction(n: f32, x: f32) -> f32 {
+    let levels = fraction_levels(x);
+    var value = n + 1.0 + f32(levels);
+    for (var k = levels - 1; k >= 0; k--) {
+        let m = f32(k / 2 + 1);
+        value = n + 1.0 + f32(k) + m * (n + m) * x / value;
     }
+    return 1.0 / value;
+}
+
+/// ∫₀¹ sⁿ / (1 + x s)^(n+1) ds, n ≤ 7: for n = 0 log(1 + x)/x. The derivative is -(n + 1) times the next one.
+/// It is (1 + x)^-n ∫₀¹ (1 - t)ⁿ / (1 + x t) dt (DLMF 15.8.1), and x times that integral is 1 + x times the one of n - 1, less
+/// 1/n.
+fn real_log1prel(x: f32, n: i32) -> f32 {
     if is_nan(x) || x < -1.0 {
         return make_nan(x);
     }
@@ -92,34 +107,30 @@ fn real_log1prel(x: f32, n: i32) -> f32 {
     if is_infinite(x) {
         return 0.0;
     }
-    if n == 0 {
-        return real_log1p(x) / x;
-    }
     let base = 1.0 + x;
-    let inverse = 1.0 / base;
-    let y = -x * inverse;
-    var moment = 0.0;
-    if y > -0.9 && y < 3.0 {
-        moment = 2.0 * moment_fraction(2.0 * f32(n) + 2.0, y);
-    } else {
-        moment = real_log1p(x) / x * base;
+    var value = 1.0;
+    if n > 0 && x > -0.6 && x < 3.0 {
+        value = falling_fraction(f32(n), x);
+    } else if magnitude(x) > 1e-9 {
+        value = real_log1p(x) / x;
         for (var k = 1; k <= n; k++) {
-            moment = (1.0 / f32(k) - moment) / y;
+            value = (base * value - 1.0 / f32(k)) / x;
         }
     }
-    return moment * inverse * small_power(inverse, n);
+    for (var k = 0; k < n; k++) {
+        value /= base;
+    }
+    return value;
 }
 
-/// ∫₀¹ tⁿ / (1 + y t) dt by the continued fraction, |y| ≤ 0.8.
-fn complex_moment(n: i32, y: vec2f) -> vec2f {
-    let b = 2.0 * f32(n) + 2.0;
-    let levels = 30;
-    var value = vec2f(b + 2.0 * f32(levels), 0.0);
-    for (var k = levels - 1; k >= 0; k--) {
-        let root = select(f32(k) + 1.0, b + f32(k), (k & 1) == 0);
-        value = vec2f(b + 2.0 * f32(k), 0.0) + root * root * complex_div(y, value);
+/// The fraction on complex numbers, |z| < 1, re z > -0.6.
+fn complex_fraction(n: f32, z: vec2f) -> vec2f {
+    var value = vec2f(n + 19.0, 0.0);
+    for (var k = 17; k >= 0; k--) {
+        let m = f32(k / 2 + 1);
+        value = vec2f(n + 1.0 + f32(k), 0.0) + m * (n + m) * complex_div(z, value);
     }
-    return 2.0 * complex_inverse(value);
+    return complex_inverse(value);
 }
 
 /// The same on complex numbers, with the cut of the logarithm.
@@ -127,23 +138,21 @@ fn complex_log1prel(z: vec2f, n: i32) -> vec2f {
     if magnitude(z.y) == 0.0 && z.x >= -1.0 {
         return vec2f(real_log1prel(z.x, n), -z.y);
     }
-    if n == 0 {
-        if max(magnitude(z.x), magnitude(z.y)) < 1e-5 {
-            return vec2f(1.0 - 0.5 * z.x, z.y * (0.6666667 * z.x - 0.5));
-        }
-        return complex_div(complex_log1p(z), z);
+    if n == 0 && max(magnitude(z.x), magnitude(z.y)) < 1e-5 {
+        return vec2f(1.0 - 0.5 * z.x, z.y * (0.6666667 * z.x - 0.5));
     }
     let base = vec2f(1.0 + z.x, z.y);
-    let inverse = complex_inverse(base);
-    let y = -complex_mul(z, inverse);
-    var moment = vec2f(0.0);
-    if complex_abs(y) < 0.8 {
-        moment = complex_moment(n, y);
+    var value = vec2f(0.0);
+    if n > 0 && z.x > -0.6 && dot(z, z) < 1.0 {
+        value = complex_fraction(f32(n), z);
     } else {
-        moment = complex_mul(complex_div(complex_log1p(z), z), base);
+        value = complex_div(complex_log1p(z), z);
         for (var k = 1; k <= n; k++) {
-            moment = complex_div(vec2f(1.0 / f32(k), 0.0) - moment, y);
+            value = complex_div(complex_mul(base, value) - vec2f(1.0 / f32(k), 0.0), z);
         }
     }
-    return complex_mul(moment, complex_small_power(inverse, n + 1));
+    for (var k = 0; k < n; k++) {
+        value = complex_div(value, base);
+    }
+    return value;
 }

@@ -5,7 +5,7 @@
 fn exp_of_square(x: real, falls: bool) -> real {
     let square = long_product(x, x);
     let e = real_exp(flip_if(square.hi, falls));
-    return real_add(e, real_mul(e, flip_if(square.lo, falls)));
+    return choose(is_infinite(e), e, real_add(e, real_mul(e, flip_if(square.lo, falls))));
 }
 
 /// e^(-x²)
@@ -14,6 +14,21 @@ fn real_gauss(x: real) -> real {
         return x;
     }
     return exp_of_square(clamped(real_abs(x), 30.0), true);
+}
+
+/// e^(x y); the rounding of the product does not count.
+fn real_exp_of_product(x: real, y: real) -> real {
+    let product = long_product(x, y);
+    let e = real_exp(product.hi);
+    return choose(is_below(real_abs(product.hi), 88.0), real_add(e, real_mul(e, product.lo)), e);
+}
+
+/// e^(-(x + y)²); the rounding of the sum does not count.
+fn real_gauss_of_sum(x: real, y: real) -> real {
+    let sum = long_sum(x, y);
+    let e = real_gauss(sum.hi);
+    let correction = twice(real_mul(sum.hi, sum.lo));
+    return choose(is_below(real_abs(sum.hi), 29.0), real_sub(e, real_mul(e, correction)), e);
 }
 
 /// 2/√π
@@ -148,19 +163,21 @@ fn real_erfcx(x: real, n: i32) -> real {
 
 /// The same for x ≥ 1: f(k)/f(k-1) = 1/(2 x + 2 (k + 1) f(k+1)/f(k)), from an index where it hardly matters.
 fn repeated_right(x: real, n: i32) -> real {
-    let far = is_above(x, 1e15);
-    let y = clamped(x, 1e15);
-    let y32 = real_to_f32(y);
-    let end = n + 10 + i32(100.0 / (y32 * y32));
+    if is_above(x, 1e9) {
+        // the first term of the asymptotic series (DLMF 7.18.14)
+        return real_mul(two_by_root_pi(), small_power(real_div(num(0.5), x), n + 1));
+    }
+    let y32 = real_to_f32(x);
+    let end = n + 20 + i32(180.0 / (y32 * y32));
     var ratio = num(1.0 / (y32 + sqrt(y32 * y32 + 2.0 * f32(end))));
     var value = two_by_root_pi();
     for (var k = end - 1; k >= 0; k--) {
-        ratio = real_div(num(0.5), real_add(y, mul32(ratio, f32(k + 1))));
+        ratio = real_div(num(0.5), real_add(x, mul32(ratio, f32(k + 1))));
         if k <= n {
             value = real_mul(value, ratio);
         }
     }
-    return choose(far, num(0.0), value);
+    return value;
 }
 
 /// Nodes and weights on the right of Gauss and Legendre's rule of 12 points (DLMF 3.5.v); special.py.
@@ -194,6 +211,51 @@ fn tail_mass(c: real, w: real) -> real {
     return real_mul(w, sum);
 }
 
+/// ∫ tᵏ e^(-t² - 2 a t) dt over [0, 2 |w|] with a = |c| - |w|, for |w| ≤ |c| and k ≤ 3. Where the exponent changes enough the
+/// integral over all t > 0, which is √π/2 k! e^(a²) iᵏerfc a (DLMF 7.18.2), less that from 2 |w| on.
+fn real_gauss_mass_moment(centre: real, width: real, k: i32) -> real {
+    let c = real_abs(centre);
+    let w = real_abs(width);
+    if is_nan(c) || is_nan(w) || real_less(c, w) {
+        return make_nan(c);
+    }
+    let steepness = scale(real_mul(c, w), 2);
+    let a = real_sub(c, w);
+    if !is_above(steepness, 2.0 + f32(k)) {
+        var sum = num(0.0);
+        for (var i = 0; i < 12; i++) {
+            let node = gauss_node(i >> 1u);
+            let t = real_mul(w, add32(flip_if(node.first, (i & 1) == 0), 1.0));
+            let e = real_exp(real_neg(real_mul(t, real_add(twice(a), t))));
+            sum = real_add(sum, real_mul(real_mul(node.second, small_power(t, k)), e));
+        }
+        return real_mul(w, sum);
+    }
+    // the member at the near end, less a binomial sum of those at the far one
+    let fall = real_exp(real_neg(steepness));
+    var factor = num(1.0);
+    var sum = num(0.0);
+    for (var j = k + 1; j >= 0; j--) {
+        let is_near = j > k;
+        let member = real_erfcx(choose(is_near, a, real_add(c, w)), min(j, k));
+        if is_near {
+            sum = member;
+        } else {
+            sum = real_sub(sum, real_mul(real_mul(factor, fall), member));
+            factor = real_div(real_mul(factor, twice(w)), num(f32(k - j + 1)));
+        }
+    }
+    return real_mul(half_root_pi(), mul32(sum, select(f32(k * (k - 1)), 1.0, k < 2)));
+}
+
+/// x² + p, rounded once.
+fn real_square_plus(x: real, p: real) -> real {
+    if !is_below(real_abs(x), 1e18) || !is_below(real_abs(p), 1e37) {
+        return real_add(real_square(x), p);
+    }
+    return long_add_real(long_product(x, x), p).hi;
+}
+
 /// The integral of e^(-u²) over the interval with centre c and half-width w. Odd in w.
 fn real_gauss_mass(c: real, w: real) -> real {
     let a = real_abs(c);
@@ -201,14 +263,7 @@ fn real_gauss_mass(c: real, w: real) -> real {
     if is_nan(c) || is_nan(w) || real_less(a, b) {
         return real_gauss_mass_scaled(c, w);
     }
-    // the rounding of c - w matters in the exponent
-    let near = long_sum(a, real_neg(b));
-    if is_above(near.hi, 29.0) {
-        return with_sign(num(0.0), w);
-    }
-    let correction = add32(real_neg(twice(real_mul(near.hi, near.lo))), 1.0);
-    let size = real_mul(real_mul(tail_mass(a, b), real_gauss(near.hi)), correction);
-    return with_sign(size, w);
+    return with_sign(real_mul(tail_mass(a, b), real_gauss_of_sum(a, real_neg(b))), w);
 }
 
 /// The same, divided by the greatest value of e^(-u²) in the interval.

@@ -2,10 +2,10 @@
 // derivatives need. Continued fraction: Gauss' for F(1, b/2; b/2 + 1; -z) (Cuyt, Petersen, Verdonk, Waadeland, Jones,
 // "Handbook of Continued Fractions for Special Functions", 2008, section 15.3).
 
-/// How many levels of the fraction are enough.
-fn moment_levels(z: f32) -> i32 {
-    let x = abs(1.0 + 2.0 / select(z, 1e-4, abs(z) < 1e-4));
-    return clamp(i32(38.0 / log(x + sqrt(max(x * x - 1.0, 0.0)))) + 3, 4, 64);
+/// How many levels are enough: two gain a factor of (u + √(u² - 1))² with u = |1 + 2/z|.
+fn fraction_levels(z: f32) -> i32 {
+    let u = abs(1.0 + 2.0 / select(z, 1e-4, abs(z) < 1e-4));
+    return clamp(i32(38.0 / log(u + sqrt(max(u * u - 1.0, 0.0)))) + 3, 4, 64);
 }
 
 /// The root of the numerator of a level.
@@ -16,7 +16,7 @@ fn moment_root(b: i32, k: i32) -> f32 {
 /// ∫₀¹ s^(b-1) / (1 + z s²) ds = 1/(b + b² z/(b + 2 + 2² z/(b + 4 + (b + 2)² z/(b + 6 + 4² z/(b + 8 + …))))),
 /// -0.9 ≤ z ≤ 3.
 fn moment_fraction(b: i32, z: real) -> real {
-    let levels = moment_levels(real_to_f32(z));
+    let levels = fraction_levels(real_to_f32(z));
     var value = num(f32(b + 2 * levels));
     for (var k = levels - 1; k >= 0; k--) {
         let root = moment_root(b, k);
@@ -85,12 +85,22 @@ fn real_atan2_quotient(p: real, x: real) -> real {
     return scale(real_div(real_log(real_div(real_add(y, root), real_sqrt(rest))), root), k);
 }
 
-/// ∫₀¹ sⁿ / (1 + x s)^(n+1) ds, n ≤ 5: for n = 0 log(1 + x)/x. The derivative is -(n + 1) times the next one.
-/// It is (1 + x)^(-n-1) ∫₀¹ tⁿ / (1 + y t) dt with y = -x/(1 + x).
-fn real_log1prel(x: real, n: i32) -> real {
-    if is_below(real_abs(x), 1e-17) {
-        return real_div(num(1.0), num(f32(n + 1)));
+/// ∫₀¹ (1 - t)ⁿ / (1 + x t) dt for -0.6 ≤ x ≤ 3, by the fraction of F(1, 1; n + 2; -x):
+/// 1/(n + 1 + (n + 1) x/(n + 2 + (n + 1) x/(n + 3 + 2 (n + 2) x/(n + 4 + 2 (n + 2) x/(n + 5 + …))))).
+fn falling_fraction(n: i32, x: real) -> real {
+    let levels = fraction_levels(real_to_f32(x));
+    var value = num(f32(n + 1 + levels));
+    for (var k = levels - 1; k >= 0; k--) {
+        let m = k / 2 + 1;
+        value = add32(real_div(mul32(x, f32(m * (n + m))), value), f32(n + 1 + k));
     }
+    return real_div(num(1.0), value);
+}
+
+/// ∫₀¹ sⁿ / (1 + x s)^(n+1) ds, n ≤ 7: for n = 0 log(1 + x)/x. The derivative is -(n + 1) times the next one.
+/// It is (1 + x)^-n ∫₀¹ (1 - t)ⁿ / (1 + x t) dt (DLMF 15.8.1), and x times that integral is 1 + x times the one of n - 1, less
+/// 1/n.
+fn real_log1prel(x: real, n: i32) -> real {
     if is_nan(x) || real_less(x, num(-1.0)) {
         return make_nan(x);
     }
@@ -100,35 +110,31 @@ fn real_log1prel(x: real, n: i32) -> real {
     if is_infinite(x) {
         return num(0.0);
     }
-    let quotient = real_div(real_log1p(x), x);
-    if n == 0 {
-        return quotient;
-    }
     let base = add32(x, 1.0);
-    let inverse = real_div(num(1.0), base);
-    let y = real_neg(real_mul(x, inverse));
-    var moment = real_mul(quotient, base);
-    if is_above(y, -0.9) && is_below(y, 3.0) {
-        moment = twice(moment_fraction(2 * n + 2, y));
-    } else {
+    var value = num(1.0);
+    if n > 0 && is_above(x, -0.6) && is_below(x, 3.0) {
+        value = falling_fraction(n, x);
+    } else if is_above(real_abs(x), 1e-17) {
+        value = real_div(real_log1p(x), x);
         for (var k = 1; k <= n; k++) {
-            moment = real_div(real_sub(real_div(num(1.0), num(f32(k))), moment), y);
+            value = real_div(real_sub(real_mul(base, value), real_div(num(1.0), num(f32(k)))), x);
         }
     }
-    return real_mul(real_mul(moment, inverse), small_power(inverse, n));
+    for (var k = 0; k < n; k++) {
+        value = real_div(value, base);
+    }
+    return value;
 }
 
-/// ∫₀¹ tⁿ / (1 + y t) dt by the continued fraction, |y| ≤ 0.8.
-fn complex_moment(n: i32, y: Complex) -> Complex {
-    let b = 2 * n + 2;
-    let levels = 56;
-    var value = complex_of_real(num(f32(b + 2 * levels)));
-    for (var k = levels - 1; k >= 0; k--) {
-        let root = moment_root(b, k);
-        let rest = complex_div(complex_mul_real(y, num(root * root)), value);
-        value = complex_add_real(rest, num(f32(b + 2 * k)));
+/// The fraction on complex numbers, |z| < 1, re z > -0.6.
+fn complex_fraction(n: i32, z: Complex) -> Complex {
+    var value = complex_of_real(num(f32(n + 37)));
+    for (var k = 35; k >= 0; k--) {
+        let m = k / 2 + 1;
+        let rest = complex_div(complex_mul_real(z, num(f32(m * (n + m)))), value);
+        value = complex_add_real(rest, num(f32(n + 1 + k)));
     }
-    return complex_scale(complex_inverse(value), 1);
+    return complex_inverse(value);
 }
 
 /// The same on complex numbers, with the cut of the logarithm.
@@ -140,21 +146,19 @@ fn complex_log1prel(z: Complex, n: i32) -> Complex {
         let slope = add32(real_mul(z.re, lit(0.6666667, -1.9868216e-8, 5.9211896e-16)), -0.5);
         return Complex(add32(real_neg(scale(z.re, -1)), 1.0), real_mul(z.im, slope));
     }
-    let quotient = complex_div(complex_log1p(z), z);
-    if n == 0 {
-        return quotient;
-    }
     let base = complex_add_real(z, num(1.0));
-    let inverse = complex_inverse(base);
-    let y = complex_neg(complex_mul(z, inverse));
-    var moment = complex_mul(quotient, base);
-    if is_below(complex_abs(y), 0.8) {
-        moment = complex_moment(n, y);
+    var value = z;
+    if n > 0 && is_above(z.re, -0.6) && is_below(complex_abs(z), 1.0) {
+        value = complex_fraction(n, z);
     } else {
+        value = complex_div(complex_log1p(z), z);
         for (var k = 1; k <= n; k++) {
-            let first = complex_of_real(real_div(num(1.0), num(f32(k))));
-            moment = complex_div(complex_sub(first, moment), y);
+            let step = complex_add_real(complex_mul(base, value), real_neg(real_div(num(1.0), num(f32(k)))));
+            value = complex_div(step, z);
         }
     }
-    return complex_mul(moment, complex_small_power(inverse, n + 1));
+    for (var k = 0; k < n; k++) {
+        value = complex_div(value, base);
+    }
+    return value;
 }

@@ -13,7 +13,7 @@ use crate::link::{Linker, number_module};
 use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
 use crate::module::{Evaluation, ModuleError, What, stable_evaluation};
 use crate::numeral::Numeral;
-use crate::program::{Picture, Program};
+use crate::program::Program;
 use crate::types::Type as LanguageType;
 
 /// Arguments of the function: the formula's inputs, then the parameters, the clock and the footprint that it uses.
@@ -28,17 +28,16 @@ struct Arguments {
 /// function is.
 pub fn standalone(
     program: &Program,
-    picture: &Picture,
+    formula: &Formula,
     what: What,
     precision: Precision,
     target: Target,
 ) -> Result<(Module, ModuleInfo, String), ModuleError> {
-    let formula = &picture.formula;
     let evaluation = stable_evaluation(formula, what)?;
     let mut linker = Linker::new(vec![number_module(precision.into())]);
     let types = NagaTypes::insert(&mut linker.out.types);
     let arguments = arguments(program, formula, &evaluation, types);
-    let [value, gradient, derivative] = function_names(&formula.name);
+    let [value, gradient, derivative, _] = function_names(&formula.name);
     let name = match what {
         What::Value => value,
         What::Gradient => gradient,
@@ -77,13 +76,14 @@ pub fn standalone(
     Ok((module, info, header))
 }
 
-/// Names of the functions for value, gradient and derivative.
-fn function_names(formula: &str) -> [String; 3] {
+/// Names of the functions for value, gradient, derivative and integral.
+fn function_names(formula: &str) -> [String; 4] {
     let formula = crate::lower::identifier(formula);
     [
         formula.clone(),
         format!("{formula}_gradient"),
         format!("{formula}_derivative"),
+        format!("{formula}_integral"),
     ]
 }
 

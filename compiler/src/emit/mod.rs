@@ -8,6 +8,7 @@ pub use text::{Target, write};
 
 use pullback_grammar::Diagnostic;
 
+use crate::integrate::{Otherwise, field_integral};
 use crate::lower::{Format, LowerError, Precision, Tier};
 use crate::module::{EvalModule, Evaluator, ModuleError, SceneModule, What};
 use crate::program::{Picture, Program};
@@ -21,6 +22,8 @@ pub enum EmitWhat {
     Gradient,
     /// A function for the value and the derivative by one variable.
     Derivative,
+    /// A function for the integral along a ray o + t d from t = a to t = b.
+    Integral,
     /// The whole scene.
     Scene,
 }
@@ -96,6 +99,7 @@ impl Program {
         self.with_picture(picture, |p| {
             can_say(target, precision)?;
             let (mut module, info, header) = match what {
+                EmitWhat::Integral => self.integral_function(p, precision, target)?,
                 EmitWhat::Scene => {
                     let scene = SceneModule::new(p, precision)?;
                     (
@@ -104,17 +108,46 @@ impl Program {
                         format!("the scene `{}`", p.scene.name),
                     )
                 }
-                EmitWhat::Value => function::standalone(self, p, What::Value, precision, target)?,
+                EmitWhat::Value => {
+                    function::standalone(self, &p.formula, What::Value, precision, target)?
+                }
                 EmitWhat::Gradient => {
-                    function::standalone(self, p, What::Gradient, precision, target)?
+                    function::standalone(self, &p.formula, What::Gradient, precision, target)?
                 }
                 EmitWhat::Derivative => {
-                    function::standalone(self, p, What::Derivative, precision, target)?
+                    function::standalone(self, &p.formula, What::Derivative, precision, target)?
                 }
             };
-            names::keep_names(&mut module, &function::generated_names(&p.formula.name));
+            let name = &p.formula.name;
+            names::keep_names(&mut module, &function::generated_names(name));
             write(&module, &info, target, &header).map_err(ModuleError::Invalid)
         })
+    }
+
+    /// A function for the integral of a picture's formula along a ray, and what is said of it.
+    fn integral_function(
+        &self,
+        picture: &Picture,
+        precision: Precision,
+        target: Target,
+    ) -> Result<(naga::Module, naga::valid::ModuleInfo, String), ModuleError> {
+        let formula = &picture.formula;
+        let made =
+            field_integral(formula, Otherwise::Quadrature).map_err(LowerError::NoIntegral)?;
+        let is_closed = made.integral.numerical.is_empty();
+        let integral = made.into_formula(formula);
+        let (module, info, header) =
+            function::standalone(self, &integral, What::Value, precision, target)?;
+        let kind = if is_closed {
+            "in closed form"
+        } else {
+            "in part by quadrature"
+        };
+        Ok((
+            module,
+            info,
+            format!("{header}, the integral along o + t d from a to b, {kind}"),
+        ))
     }
 }
 

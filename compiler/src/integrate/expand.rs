@@ -80,7 +80,7 @@ impl Integrator<'_> {
             Prim::Mul => self.product(&of(0), &of(1), id),
             Prim::Div => match self.inverse(&of(1)) {
                 Some(inverse) => self.product(&of(0), &[inverse], id),
-                None => Ok(vec![self.quotient_without_rule(id, &of(1))]),
+                None => self.quotient_without_rule(id, &of(0), &of(1)),
             },
             Prim::PowInt(n) => self.power(id, &of(0), n),
             Prim::Sqrt => Ok(vec![self.root(id, &of(0))]),
@@ -103,8 +103,46 @@ impl Integrator<'_> {
     }
 
     /// A quotient whose divisor has no inverse among the factors: the known functions of that form, or none.
-    fn quotient_without_rule(&mut self, id: Id, _divisor: &[Term]) -> Term {
-        self.other(id)
+    fn quotient_without_rule(
+        &mut self,
+        id: Id,
+        numerator: &[Term],
+        divisor: &[Term],
+    ) -> Result<Vec<Term>, Problem> {
+        match self.logistic_of(divisor, id) {
+            Some(term) => self.product(numerator, &[term], id),
+            None => Ok(vec![self.other(id)]),
+        }
+    }
+
+    /// 1/(k + m e^x) = (1/k)/(1 + e^(x + log(m/k))) for numbers k and m of one sign.
+    fn logistic_of(&mut self, divisor: &[Term], id: Id) -> Option<Term> {
+        let [first, second] = divisor else {
+            return None;
+        };
+        let (constant, growing) = if first.factors.is_empty() {
+            (first, second)
+        } else {
+            (second, first)
+        };
+        let [Factor::Exponential(exponent)] = *growing.factors.as_slice() else {
+            return None;
+        };
+        let (k, m) = (
+            self.g.as_real(constant.coefficient)?,
+            self.g.as_real(growing.coefficient)?,
+        );
+        let is_plain =
+            constant.factors.is_empty() && first.guards.is_empty() && second.guards.is_empty();
+        if !is_plain || m / k <= 0.0 || self.degree(exponent) != Some(1) {
+            return None;
+        }
+        let shift = self.g.real((m / k).ln());
+        let sum = add(self.g, exponent, shift);
+        let x = self.g.neg(sum);
+        let mut term = Term::of(self.g, Factor::Logistic(x), id);
+        term.coefficient = self.g.real(1.0 / k);
+        Some(term)
     }
 
     fn scaled(&mut self, mut terms: Vec<Term>, v: f64) -> Vec<Term> {
@@ -246,7 +284,9 @@ impl Integrator<'_> {
             Prim::Sin | Prim::Cos | Prim::Sinh | Prim::Cosh if self.degree(first) == Some(1) => {
                 (Factor::Wave(prim, first), 1.0)
             }
-            Prim::Tanh | Prim::Sech | Prim::Atan | Prim::Asinh if self.degree(first) == Some(1) => {
+            Prim::Tanh | Prim::Sech | Prim::Atan | Prim::Asinh | Prim::Erf
+                if self.degree(first) == Some(1) =>
+            {
                 (Factor::Function(prim, first), 1.0)
             }
             Prim::Sqrt if degree(self, first).is_some() => {

@@ -1,8 +1,9 @@
 //! The integral of a function of space along a ray.
 
-use super::{Integral, Otherwise, Path, Problem, integrate};
-use crate::formula::Formula;
+use super::{Integral, Otherwise, Path, Problem, Reason, integrate};
+use crate::formula::{Formula, Input};
 use crate::ir::{Graph, Id, Op, Ty, transcribe};
+use crate::types::Type;
 
 /// Inputs of the integral of a field: origin, direction, and both ends.
 pub const INPUTS: [&str; 8] = ["o.x", "o.y", "o.z", "d.x", "d.y", "d.z", "a", "b"];
@@ -21,13 +22,24 @@ pub struct FieldIntegral {
 /// The integral of a real function of three real inputs (or fewer) along a ray.
 ///
 /// # Errors
-/// A bound is exceeded, or there is no closed form and quadrature is not wanted.
+/// The function is no such function, a bound is exceeded, or there is no closed form and quadrature is not wanted.
 pub fn field_integral(formula: &Formula, otherwise: Otherwise) -> Result<FieldIntegral, Problem> {
+    let is_field = formula.ty == Type::Real && formula.value.len() == 1;
+    let scalars = formula.scalars();
+    if !is_field || scalars.len() > 3 || scalars.iter().any(|&ty| ty != Ty::Real) {
+        let node = formula.value.first().copied();
+        let node = node.unwrap_or_else(|| Graph::new().real(f64::NAN));
+        return Err(Problem {
+            node,
+            span: formula.span,
+            reason: Reason::NoField,
+        });
+    }
     let (from, value) = formula.to_compile();
     let mut graph = Graph::new();
     let input = |g: &mut Graph, k: usize| Formula::leaf(g, k, Ty::Real);
     let inputs: Vec<Id> = (0..INPUTS.len()).map(|k| input(&mut graph, k)).collect();
-    let count = formula.scalars().len().min(3);
+    let count = scalars.len();
     let point: Vec<Id> = (0..count).map(|_| graph.new_variable(Ty::Real)).collect();
     let roots = transcribe(from, value, &mut graph, |to, node, args| match node.op {
         Op::Input(k) => point
@@ -54,4 +66,32 @@ pub fn field_integral(formula: &Formula, otherwise: Otherwise) -> Result<FieldIn
         point,
         integral,
     })
+}
+
+impl FieldIntegral {
+    /// The integral as a function of its eight inputs, to be evaluated or written as a shader.
+    #[must_use]
+    pub fn into_formula(self, of: &Formula) -> Formula {
+        let (graph, value) = self.graph.compacted(&[self.integral.value]);
+        let inputs = [
+            ("o", Type::Vector(3)),
+            ("d", Type::Vector(3)),
+            ("a", Type::Real),
+            ("b", Type::Real),
+        ];
+        let inputs = inputs.map(|(name, ty)| Input {
+            name: name.to_owned(),
+            ty,
+        });
+        Formula {
+            name: format!("{}_integral", of.name),
+            inputs: inputs.into(),
+            graph,
+            value: value.into(),
+            ty: Type::Real,
+            span: of.span,
+            rewrites: of.rewrites,
+            derived: None,
+        }
+    }
 }

@@ -5,6 +5,8 @@
 //! integrand becomes a sum of products; each product is integrated by the rule of its class ([`Rule`]). What is piecewise
 //! is cut where its conditions change. Nothing divides by a component of the direction.
 
+mod affine;
+mod algebraic;
 mod arithmetic;
 mod breaks;
 mod class;
@@ -12,6 +14,7 @@ mod expand;
 mod explain;
 mod exponential;
 mod field;
+mod gaussian;
 mod legendre;
 mod path;
 mod problem;
@@ -21,12 +24,14 @@ mod rule;
 mod series;
 mod term;
 
+pub use algebraic::MAX_DEGREE_BESIDE_POWER;
 pub use breaks::MAX_BREAKS;
 pub use class::MAX_DEGREE;
 pub use expand::{MAX_FACTORS, MAX_TERMS};
 pub use explain::{Explanation, Told, explain};
 pub use exponential::MAX_DEGREE_BESIDE;
 pub use field::{FieldIntegral, INPUTS, field_integral};
+pub use gaussian::MAX_DEGREE_BESIDE_GAUSSIAN;
 pub use legendre::{Node as QuadratureNode, gauss_legendre};
 pub use path::{Coordinate, Path};
 pub use problem::{Problem, Reason};
@@ -37,6 +42,7 @@ use smallvec::SmallVec;
 
 use arithmetic::{add, mul, scale};
 use class::Classes;
+use exponential::Parts;
 use path::Body;
 use term::{Factor, Term};
 
@@ -265,6 +271,42 @@ impl<'g> Integrator<'g> {
         };
         if term.factors.iter().all(is_exponential) {
             return self.exponential(term);
+        }
+        self.algebraic_or_gaussian(term)
+    }
+
+    fn algebraic_or_gaussian(&mut self, term: &Term) -> Result<(Id, Rule), Problem> {
+        let parts = Parts::of(term);
+        if parts.rest.is_empty() {
+            return self.gaussian(term);
+        }
+        if parts.exponent.is_none() && parts.waves.is_empty() {
+            match *parts.rest.as_slice() {
+                [Factor::Power(base, exponent)] => {
+                    let is_affine = self.degree(base) == Some(1);
+                    let rule = if is_affine {
+                        Self::affine_power
+                    } else {
+                        Self::quadratic_power
+                    };
+                    return rule(self, term.source, &parts.polynomials, base, exponent);
+                }
+                [Factor::Log(base)] => {
+                    let is_affine = self.degree(base) == Some(1);
+                    let rule = if is_affine {
+                        Self::affine_log
+                    } else {
+                        Self::quadratic_log
+                    };
+                    return rule(self, term.source, &parts.polynomials, base);
+                }
+                _ => {}
+            }
+            if parts.polynomials.is_empty()
+                && let Some(found) = self.function(&parts.rest)
+            {
+                return Ok(found);
+            }
         }
         Err(self.why_product(term))
     }

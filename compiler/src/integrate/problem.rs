@@ -1,6 +1,6 @@
 //! Why a part of an integrand has no closed form.
 
-use pullback_grammar::Span;
+use pullback_grammar::{Diagnostic, Span};
 
 use super::Integrator;
 use super::term::{Factor, Term};
@@ -24,6 +24,8 @@ pub enum Reason {
     NotElementary(&'static str),
     /// None was found.
     NotFound,
+    /// A power whose exponent is no whole multiple of 1/2: a hypergeometric function.
+    Hypergeometric,
     /// There are more of these than the bound.
     Bound(&'static str, usize),
     /// A condition whose zeros along a line are not those of a polynomial of degree 2.
@@ -34,6 +36,8 @@ pub enum Reason {
     Rounding,
     /// A complex number on the way.
     Complex,
+    /// The function is not one of up to three reals with a real value.
+    NoField,
 }
 
 impl Reason {
@@ -44,11 +48,15 @@ impl Reason {
             Self::NotElementary(why) => format!("no elementary function has this derivative ({why})"),
             Self::NotFound => "none of the rules integrates it; whether it has one is not known".to_owned(),
             Self::Bound(what, bound) => format!("at most {bound} {what} are written out"),
+            Self::Hypergeometric => {
+                "powers of quadratics are integrated for exponents that are whole multiples of 1/2".to_owned()
+            }
             Self::Condition => {
                 "conditions are cut where polynomials of degree 1 or 2, or lengths, change their order".to_owned()
             }
             Self::Loop => "of the loops, sums of terms with a constant number of terms are integrated".to_owned(),
             Self::Rounding => "it jumps as often as the line is long".to_owned(),
+            Self::NoField => "the integral along a ray is of a real function of x, y and z".to_owned(),
             Self::Complex => "complex numbers on the way are not integrated".to_owned(),
         }
     }
@@ -57,6 +65,32 @@ impl Reason {
     #[must_use]
     pub fn is_proven(self) -> bool {
         matches!(self, Self::NotElementary(_))
+    }
+}
+
+impl Problem {
+    /// The problem as an error of an integral that stands at this place.
+    #[must_use]
+    pub fn diagnostic(&self, whole: Span) -> Diagnostic {
+        let is_known = self.span != Span::default();
+        let place = if is_known { self.span } else { whole };
+        let (code, message) = match self.reason {
+            Reason::NoField => ("wrong-demand", "this has no integral along a ray"),
+            Reason::Bound(..) => ("too-large", "this integral is too large to be written out"),
+            reason if reason.is_proven() => (
+                "no-closed-form",
+                "this integral has no elementary closed form",
+            ),
+            _ => (
+                "no-closed-form",
+                "no closed form of this integral is known here",
+            ),
+        };
+        let diagnostic = Diagnostic::error(code, place, message).with_label(self.reason.in_words());
+        if place == whole {
+            return diagnostic;
+        }
+        diagnostic.with_related(whole, "in this integral")
     }
 }
 

@@ -12,6 +12,20 @@ pub enum Rule {
     ProductOfWaves,
     PolynomialByWave,
     Series,
+    Reciprocal,
+    ReciprocalRoot,
+    Root,
+    ReciprocalCube,
+    Equiangular,
+    PolynomialByPower,
+    LogQuadratic,
+    AffinePower,
+    AffineLog,
+    Bell,
+    Sigmoidal,
+    Logistic,
+    Gaussian,
+    PolynomialByGaussian,
 }
 
 /// What a rule does.
@@ -31,7 +45,7 @@ pub struct Record {
 }
 
 /// Every rule, in the order of [`Rule`].
-pub static RULES: [Record; 8] = [
+pub static RULES: [Record; 22] = [
     Record {
         rule: Rule::Constant,
         name: "constant",
@@ -87,6 +101,104 @@ pub static RULES: [Record; 8] = [
         equation: "∫ Σ fₖ = Σ ∫ fₖ",
         bound: "as its terms",
         source: "elementary",
+    },
+    Record {
+        rule: Rule::Reciprocal,
+        name: "reciprocal of a quadratic",
+        equation: "∫ 1/q = L atan2(√(DL²), E)/√(DL²), E = q(m) - a h², D = |d|² |p(m) - c|² - (d·(p(m) - c))² as |d × (p(m) - c)|²",
+        bound: "always; one formula through D = 0",
+        source: "NIST DLMF 4.23, 4.40.5; Sun et al., A practical analytic single scattering model, SIGGRAPH 2005",
+    },
+    Record {
+        rule: Rule::ReciprocalRoot,
+        name: "reciprocal root of a quadratic",
+        equation: "∫ 1/√q = 2L atan2(√-a L, S)/(√-a L), S = r₀ + r₁; (2/√a) log((S + √a L)/√(2(r₀r₁ + E))) where E < 0",
+        bound: "always; infinite where q has a zero in the interval",
+        source: "NIST DLMF 4.37, 4.40",
+    },
+    Record {
+        rule: Rule::Root,
+        name: "root of a quadratic",
+        equation: "∫ √q = L (S/4 + q(m) G - (r₁ - r₀)² A₁/(4S)), G = atan2(√-a L, S)/(√-a L); by parts where E < 0",
+        bound: "always",
+        source: "NIST DLMF 4.40; Gradshteyn and Ryzhik 2.262",
+    },
+    Record {
+        rule: Rule::ReciprocalCube,
+        name: "reciprocal cube of a root",
+        equation: "∫ q^(-3/2) = L (r₀ + r₁)/(r₀ r₁ (r₀ r₁ + E)), r₀r₁ + E = DL²/(r₀r₁ - E) where E < 0",
+        bound: "always; infinite where q has a zero in the interval",
+        source: "Gradshteyn and Ryzhik 2.264.5",
+    },
+    Record {
+        rule: Rule::Equiangular,
+        name: "negative power of a quadratic",
+        equation: "∫ p q^(-n) = ∫ p q^(1-n) dθ/√D over the angle at the zero of q, by nodes",
+        bound: "exponents -2, -5/2, -3 …, beside polynomials of degree up to 2n - 2; right to 1e-12",
+        source: "Kulla and Fajardo, Importance sampling techniques for path tracing in participating media, 2012",
+    },
+    Record {
+        rule: Rule::PolynomialByPower,
+        name: "polynomial by power of a quadratic",
+        equation: "Σ p⁽ᵏ⁾(s₀)/k! ∫ σᵏ q^r, (2r + 1 + k) Fₖ = [σᵏ⁻¹ q^(r+1)]/a - (k - 1) (D/a²) Fₖ₋₂; nodes of the product where |a| h² < q(m)/4",
+        bound: "exponents -1, -1/2, 1/2, 3/2 …, degree up to 12",
+        source: "Gradshteyn and Ryzhik 2.263",
+    },
+    Record {
+        rule: Rule::LogQuadratic,
+        name: "logarithm of a quadratic",
+        equation: "(k + 1) ∫ σᵏ log q = [σᵏ⁺¹ log q] - 2a ∫ σᵏ⁺²/q; nodes of the product where |a| h² < q(m)/4",
+        bound: "degree up to 12",
+        source: "Gradshteyn and Ryzhik 2.733",
+    },
+    Record {
+        rule: Rule::AffinePower,
+        name: "power of a linear function",
+        equation: "∫ x^p = L X^p φ((p + 1) λ)/φ(λ), X the end greater in size, λ = log1p(-2|w|/|X|)",
+        bound: "any exponent; beside polynomials of degree up to 12 by moments, and nodes where |w| < |x(m)|/2",
+        source: "NIST DLMF 4.10.3",
+    },
+    Record {
+        rule: Rule::AffineLog,
+        name: "logarithm of a linear function",
+        equation: "(k + 1) β ∫ xᵏ log x = [xᵏ⁺¹ (log x - 1/(k + 1))]; nodes of the product where |w| < |x(m)|/2",
+        bound: "degree up to 12",
+        source: "NIST DLMF 4.10.5",
+    },
+    Record {
+        rule: Rule::Bell,
+        name: "hyperbolic secant",
+        equation: "∫ sech² x = L sinhc(2w)/(cosh x₀ cosh x₁), ∫ sech x = L atan(w y)/w, y = sinhc(w)/cosh x(m)",
+        bound: "always",
+        source: "NIST DLMF 4.40.5",
+    },
+    Record {
+        rule: Rule::Sigmoidal,
+        name: "tanh, atan, asinh, erf",
+        equation: "the difference of log cosh x, x atan x - log √(1 + x²), x asinh x - √(1 + x²), x erf x + e^(-x²)/√π; nodes on short intervals",
+        bound: "always",
+        source: "NIST DLMF 4.40.3, 4.26.14, 4.40.11, 7.7",
+    },
+    Record {
+        rule: Rule::Logistic,
+        name: "logistic function",
+        equation: "∫ 1/(1 + e^-x) = L (log(1 + e^x₁) - log(1 + e^x₀))/(x₁ - x₀); L σ φ(δ) log1p(σ expm1 δ)/(σ expm1 δ) for δ = x₁ - x₀ below 1",
+        bound: "always",
+        source: "elementary",
+    },
+    Record {
+        rule: Rule::Gaussian,
+        name: "Gaussian",
+        equation: "∫ e^(-q) = L e^(-min q) M/(2w), M = ∫ e^(-u²) from c - w to c + w over its greatest value",
+        bound: "exponents that fall; the relative error of the exponential of its exponent",
+        source: "NIST DLMF 7.2.1, 7.7",
+    },
+    Record {
+        rule: Rule::PolynomialByGaussian,
+        name: "polynomial by Gaussian",
+        equation: "∫ₓ^∞ p e^(-u²) du = e^(-x²) Σ p⁽ⁿ⁾ (√π/2) e^(x²) iⁿerfc x from the ends and the centre; nodes where the exponent changes by less than degree + 2",
+        bound: "degree up to 7",
+        source: "NIST DLMF 7.18",
     },
 ];
 

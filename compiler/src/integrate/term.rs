@@ -20,6 +20,8 @@ pub enum Factor {
     Log(Id),
     /// A function of the table, of a polynomial of degree 1, that has a rule of its own.
     Function(Prim, Id),
+    /// 1/(1 + e^-x) of a polynomial x of degree 1.
+    Logistic(Id),
     /// Σ over a counter of terms that have an integral each: the result of a loop.
     Series(Id),
     /// Something without a rule.
@@ -122,6 +124,7 @@ impl Term {
                 Factor::Polynomial(p) => powers_of(g, p, &degree)?,
                 Factor::Exponential(exponent) => Factor::Exponential(g.neg(exponent)),
                 Factor::Power(base, exponent) => Factor::Power(base, g.neg(exponent)),
+                Factor::Wave(Prim::Cosh, x) => Factor::Function(Prim::Sech, x),
                 _ => return None,
             };
             out.push(g, inverse);
@@ -159,6 +162,12 @@ impl Factor {
             Self::Polynomial(id) | Self::Series(id) | Self::Other(id) => id,
             Self::Exponential(exponent) => g.apply(Prim::Exp, &[exponent]),
             Self::Wave(prim, phase) | Self::Function(prim, phase) => g.apply(prim, &[phase]),
+            Self::Logistic(x) => {
+                let (one, back) = (g.real(1.0), g.neg(x));
+                let fall = g.apply(Prim::Exp, &[back]);
+                let base = g.add(one, fall);
+                g.div(one, base)
+            }
             Self::Log(base) => g.apply(Prim::Log, &[base]),
             Self::Power(base, exponent) => match g.as_real(exponent) {
                 Some(0.5) => g.apply(Prim::Sqrt, &[base]),

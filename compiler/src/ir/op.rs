@@ -126,10 +126,18 @@ pub enum Prim {
     Erfcx(u8),
     /// e^{-x²}
     Gauss,
+    /// e^{-(x + y)²}
+    GaussOfSum,
     /// ∫ e^{-u²} du over an interval given by centre and half-width.
     GaussMass,
     /// The same, divided by the greatest value of the integrand in the interval.
     GaussMassScaled,
+    /// ∫ (u - a)ᵏ e^{a² - u²} du over an interval to the right of 0 that begins at a, by its centre and half-width.
+    GaussMassMoment(u8),
+    /// e^{x y}
+    ExpOfProduct,
+    /// x² + p, rounded once.
+    SquarePlus,
     Log1pExp,
     Gamma,
     Lgamma,
@@ -178,7 +186,8 @@ impl Prim {
             | Self::Log1pRel(n)
             | Self::SphericalJ(n)
             | Self::SphericalIScaled(n)
-            | Self::Erfcx(n) => Some(n),
+            | Self::Erfcx(n)
+            | Self::GaussMassMoment(n) => Some(n),
             _ => None,
         }
     }
@@ -193,6 +202,7 @@ impl Prim {
             Self::SphericalJ(_) => Self::SphericalJ(n),
             Self::SphericalIScaled(_) => Self::SphericalIScaled(n),
             Self::Erfcx(_) => Self::Erfcx(n),
+            Self::GaussMassMoment(_) => Self::GaussMassMoment(n),
             other => other,
         }
     }

@@ -68,6 +68,8 @@ pub enum LowerError {
     NoForm(&'static str),
     /// A derivative that the template asks for does not exist.
     NoDerivative(crate::derive::NoDerivative),
+    /// An integral that the template asks for exceeds a bound.
+    NoIntegral(crate::integrate::Problem),
     /// The template asks for something that the formula's type does not have.
     Demand(String),
     /// A library function could not be linked.

@@ -6,17 +6,19 @@ use super::reciprocal::reciprocal;
 use super::substitute::substitute;
 use crate::derive::{ComplexVariable, forward, gradient, jet};
 use crate::formula::Formula;
+use crate::integrate::{Otherwise, field_integral};
 use crate::ir::{Graph, Id, Ty};
 use crate::link::{Linker, Provider};
 use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
 use crate::stable::finish;
 
 /// Names of the stubs that are filled from a formula.
-pub const DEMANDS: [&str; 8] = [
+pub const DEMANDS: [&str; 9] = [
     "field",
     "field_grad",
     "field_jet2",
     "field_ray",
+    "field_integral",
     "map",
     "map_jet",
     "chart_jet",
@@ -53,6 +55,7 @@ impl Provider for Demand<'_> {
             "field_grad" => self.gradient(stub)?,
             "field_jet2" => self.second_jet(stub)?,
             "field_ray" => self.ray(types)?,
+            "field_integral" => self.integral()?,
             "map" => self.map(),
             "map_jet" => {
                 let (graph, roots) = self.graph();
@@ -236,6 +239,22 @@ impl Demand<'_> {
             roots: vec![roots[0], slope],
             inputs,
             output,
+        })
+    }
+
+    /// The integral along the ray o + t d from t = a to t = b, in closed form; by quadrature what has none.
+    fn integral(&self) -> Result<Answer, LowerError> {
+        let made =
+            field_integral(self.formula, Otherwise::Quadrature).map_err(LowerError::NoIntegral)?;
+        let inputs = (0..2)
+            .flat_map(|a| (0..3).map(move |k| Argument::Component(a, k)))
+            .chain([Argument::Whole(2), Argument::Whole(3)])
+            .collect();
+        Ok(Answer {
+            roots: vec![made.integral.value],
+            graph: made.graph,
+            inputs,
+            output: Output::Node(0),
         })
     }
 

@@ -54,6 +54,7 @@ impl ModuleError {
                     crate::table::row(missing.prim).usage
                 ),
             ),
+            Self::Lower(LowerError::NoIntegral(problem)) => problem.diagnostic(span),
             Self::Lower(LowerError::Demand(message)) => {
                 Diagnostic::error("wrong-demand", span, message.clone())
             }

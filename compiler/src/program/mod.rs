@@ -4,6 +4,7 @@ mod checker;
 mod function;
 mod outline;
 mod params;
+mod quadrature;
 mod settings;
 mod subject;
 mod unused;

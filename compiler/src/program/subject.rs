@@ -248,6 +248,7 @@ impl<'a> Checker<'a> {
             Space::Complex => matches!(formula.ty, Type::Real | Type::Complex),
         };
         if fits {
+            self.warn_of_quadrature(scene, formula);
             return Some(formula.clone());
         }
         let whole = match subject {

@@ -60,6 +60,27 @@ pub fn gauss(x: f64) -> f64 {
     e - e * low
 }
 
+/// e^{x y}; the rounding of the product does not count.
+pub fn exp_of_product(x: f64, y: f64) -> f64 {
+    let product = x * y;
+    let e = product.exp();
+    if product.abs() > 800.0 || e.is_infinite() || e.is_nan() {
+        return e;
+    }
+    e + e * x.mul_add(y, -product)
+}
+
+/// e^{-(x + y)²}; the rounding of the sum does not count.
+pub fn gauss_of_sum(x: f64, y: f64) -> f64 {
+    let sum = x + y;
+    if sum.abs() > 40.0 {
+        return 0.0;
+    }
+    let part = sum - x;
+    let rest = (x - (sum - part)) + (y - part);
+    gauss(sum) * (1.0 - 2.0 * sum * rest)
+}
+
 /// e^{x²}
 fn inverse_gauss(x: f64) -> f64 {
     if x.abs() > 40.0 {
@@ -67,7 +88,7 @@ fn inverse_gauss(x: f64) -> f64 {
     }
     let (high, low) = square(x);
     let e = high.exp();
-    e + e * low
+    if e.is_infinite() { e } else { e + e * low }
 }
 
 /// erf x: below 1/2 the series of DLMF 7.6.2, whose terms have one sign.
@@ -138,6 +159,10 @@ pub fn erfcx(n: u8, x: f64) -> f64 {
 
 /// The same for x ≥ 1/2: f_k / f_{k-1} = 1/(2 x + 2 (k + 1) f_{k+1}/f_k), from an index where it hardly matters.
 fn repeated_right(n: u8, x: f64) -> f64 {
+    if x > 1e9 {
+        // the first term of the asymptotic series (DLMF 7.18.14)
+        return TWO_BY_ROOT_PI * (0.5 / x).powi(i32::from(n) + 1);
+    }
     let last = (180.0 / (x * x)).ceil() + f64::from(n) + 20.0;
     let mut ratio = 1.0 / (x + (x * x + 2.0 * last).sqrt());
     let mut value = TWO_BY_ROOT_PI;
@@ -184,6 +209,38 @@ fn tail_mass(c: f64, w: f64) -> f64 {
         .sum::<f64>()
 }
 
+/// ∫ tᵏ e^{-t² - 2 a t} dt over [0, 2 |w|] with a = |c| - |w|, for |w| ≤ |c| and k ≤ 3: the derivatives of the mass that is
+/// divided by its greatest value are made of these.
+///
+/// Where the exponent changes enough ∫ over all t > 0, which is √π/2 k! e^{a²} iᵏerfc a (DLMF 7.18.2), less that from 2 |w| on.
+pub fn mass_moment(k: u8, c: f64, w: f64) -> f64 {
+    let (c, w) = (c.abs(), w.abs());
+    let steepness = 4.0 * c * w;
+    if c.is_nan() || w.is_nan() || w > c {
+        return f64::NAN;
+    }
+    if steepness <= STEEP + f64::from(k) {
+        let at = |s: f64| {
+            let t = w * (1.0 + s);
+            t.powi(i32::from(k)) * (-t * (2.0 * c + w * (s - 1.0))).exp()
+        };
+        let sum = NODES
+            .iter()
+            .map(|&(s, weight)| weight * (at(s) + at(-s)))
+            .sum::<f64>();
+        return w * sum;
+    }
+    let factorial = |n: u8| (1..=n).map(f64::from).product::<f64>();
+    // (t + 2w)ᵏ = Σ k!/(j! (k - j)!) tʲ (2w)ᵏ⁻ʲ
+    let far = if steepness > 800.0 {
+        0.0
+    } else {
+        let term = |j: u8| (2.0 * w).powi(i32::from(k - j)) / factorial(k - j) * erfcx(j, c + w);
+        (-steepness).exp() * (0..=k).map(term).sum::<f64>()
+    };
+    HALF_ROOT_PI * factorial(k) * (erfcx(k, c - w) - far)
+}
+
 /// The mass of e^{-u²} in [c - w, c + w] for w ≥ 0, and whether it is still to be multiplied by e^{-(|c| - w)²}.
 fn mass(c: f64, w: f64) -> (f64, bool) {
     if w <= c {
@@ -197,15 +254,10 @@ fn mass(c: f64, w: f64) -> (f64, bool) {
 pub fn gauss_mass(c: f64, w: f64) -> f64 {
     let (c, width) = (c.abs(), w.abs());
     let (mass, is_scaled) = mass(c, width);
-    let size = if !is_scaled {
-        mass
-    } else if c - width > 40.0 {
-        0.0
+    let size = if is_scaled {
+        mass * gauss_of_sum(c, -width)
     } else {
-        // the rounding of c - w matters in the exponent
-        let near = c - width;
-        let rest = (c - near) - width;
-        mass * gauss(near) * (1.0 - 2.0 * near * rest)
+        mass
     };
     size.copysign(w)
 }

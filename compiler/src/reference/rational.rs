@@ -67,7 +67,7 @@ pub fn atan2_quotient(p: f64, x: f64) -> f64 {
     if x == f64::INFINITY || p == f64::INFINITY {
         return 0.0;
     }
-    if x > 0.0 && p.abs() < x * x {
+    if x > 0.0 && p < x * x && p > -0.5 * x * x {
         return atan_quotient(0, p / x / x) / x;
     }
     if p > 0.0 {
@@ -75,41 +75,54 @@ pub fn atan2_quotient(p: f64, x: f64) -> f64 {
         return root.atan2(x) / root;
     }
     let edge = (-p).sqrt();
-    if x < 0.0 && p < 0.0 || x < edge {
-        // with a double root the pole of one sign
+    if x <= 0.0 {
+        // at a double root the integrand has one sign
         return if p == 0.0 { f64::INFINITY } else { f64::NAN };
     }
-    if x > edge {
-        // -p underflowed beside x², or rounds to it
-        return atan_quotient(0, (p / x / x).max(-1.0 + f64::EPSILON)) / x;
+    let rest = x.mul_add(x, p);
+    if rest < 0.0 {
+        f64::NAN
+    } else if rest == 0.0 {
+        f64::INFINITY
+    } else {
+        ((x + edge) / rest.sqrt()).ln() / edge
     }
-    f64::INFINITY
+}
+
+/// ∫₀¹ (1 - t)ⁿ / (1 + x t) dt for -0.6 ≤ x ≤ 3 by Gauss' continued fraction (section 15.3, for F(1, 1; n + 2; -x)):
+/// 1/(n + 1 + (n + 1) x/(n + 2 + (n + 1) x/(n + 3 + 2 (n + 2) x/(n + 4 + 2 (n + 2) x/(n + 5 + …))))).
+fn falling_fraction(n: f64, x: f64) -> f64 {
+    const LEVELS: i32 = 48;
+    let mut value = n + 1.0 + f64::from(LEVELS);
+    for k in (0..LEVELS).rev() {
+        let m = f64::from(k / 2 + 1);
+        value = n + 1.0 + f64::from(k) + m * (n + m) * x / value;
+    }
+    1.0 / value
 }
 
 /// ∫₀¹ sⁿ / (1 + x s)^{n+1} ds: for n = 0 log(1 + x)/x. The derivative is -(n + 1) times the next one.
 ///
-/// It is (1 + x)^{-n-1} ∫₀¹ tⁿ / (1 + y t) dt with y = -x/(1 + x) (t = (1 + x) s/(1 + x s)).
+/// It is (1 + x)^{-n} ∫₀¹ (1 - t)ⁿ / (1 + x t) dt (DLMF 15.8.1), and x times that integral is 1 + x times the one of n - 1,
+/// less 1/n.
 pub fn log1prel(n: u8, x: f64) -> f64 {
-    if x == 0.0 {
-        return 1.0 / (f64::from(n) + 1.0);
-    }
     if x.is_nan() || x < -1.0 {
         return f64::NAN;
     }
     if x == -1.0 || x == f64::INFINITY {
         return if x < 0.0 { f64::INFINITY } else { 0.0 };
     }
-    if n == 0 {
-        return x.ln_1p() / x;
-    }
-    let y = -x / (1.0 + x);
-    let moment = if is_moderate(y) {
-        2.0 * moment_fraction(2.0 * f64::from(n) + 2.0, y)
+    let base = 1.0 + x;
+    let integral = if n > 0 && (-0.6..3.0).contains(&x) {
+        falling_fraction(n.into(), x)
+    } else if x == 0.0 {
+        1.0
     } else {
-        let first = x.ln_1p() / x * (1.0 + x);
-        (1..=n).fold(first, |value, k| (1.0 / f64::from(k) - value) / y)
+        (1..=n).fold(x.ln_1p() / x, |value, k| {
+            (base * value - 1.0 / f64::from(k)) / x
+        })
     };
-    moment * (1.0 + x).powi(-i32::from(n) - 1)
+    (0..n).fold(integral, |value, _| value / base)
 }
 
 impl Complex {
@@ -120,40 +133,29 @@ impl Complex {
             // the derivative is negative
             return complex(log1prel(n, x), -y);
         }
-        if n == 0 {
-            if x.abs().max(y.abs()) < 1e-9 {
-                return complex(1.0 - 0.5 * x, -0.5 * y);
-            }
-            return self.log1p() / self;
+        if n == 0 && x.abs().max(y.abs()) < 1e-9 {
+            return complex(1.0 - 0.5 * x, -0.5 * y);
         }
-        let one = complex(1.0, 0.0);
         let base = complex(1.0 + x, y);
-        let turned = -(self / base);
-        let moment = if turned.abs() < 0.9 {
-            complex_moment(n, turned)
+        let integral = if n > 0 && x > -0.6 && self.abs() < 1.0 {
+            complex_fraction(n.into(), self)
         } else {
-            let first = self.log1p() / self * base;
-            (1..=n).fold(first, |value, k| {
-                (complex(1.0 / f64::from(k), 0.0) - value) / turned
+            (1..=n).fold(self.log1p() / self, |value, k| {
+                (base * value - complex(1.0 / f64::from(k), 0.0)) / self
             })
         };
-        moment * (one / base).powi(i32::from(n) + 1)
+        (0..n).fold(integral, |value, _| value / base)
     }
 }
 
-/// ∫₀¹ tⁿ / (1 + y t) dt by the continued fraction.
-fn complex_moment(n: u8, y: Complex) -> Complex {
-    const LEVELS: i32 = 96;
-    let b = 2.0 * f64::from(n) + 2.0;
-    let mut value = complex(b + 2.0 * f64::from(LEVELS), 0.0);
+/// The continued fraction on complex numbers.
+fn complex_fraction(n: f64, z: Complex) -> Complex {
+    const LEVELS: i32 = 40;
+    let mut value = complex(n + 1.0 + f64::from(LEVELS), 0.0);
     for k in (0..LEVELS).rev() {
-        let root = if k % 2 == 0 {
-            b + f64::from(k)
-        } else {
-            f64::from(k) + 1.0
-        };
-        let rest = y.scale(root * root) / value;
-        value = complex(b + 2.0 * f64::from(k) + rest.re, rest.im);
+        let m = f64::from(k / 2 + 1);
+        let rest = z.scale(m * (n + m)) / value;
+        value = complex(n + 1.0 + f64::from(k) + rest.re, rest.im);
     }
-    complex(2.0, 0.0) / value
+    value.inverse()
 }

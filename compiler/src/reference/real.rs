@@ -136,6 +136,11 @@ pub fn log1pexp(x: f64) -> f64 {
     if x > 0.0 { x + rest } else { rest }
 }
 
+/// x² + p, rounded once.
+pub fn square_plus(x: f64, p: f64) -> f64 {
+    x.mul_add(x, p)
+}
+
 /// √x, NaN below 0.
 pub fn sqrt(x: f64) -> f64 {
     x.sqrt()

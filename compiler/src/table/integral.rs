@@ -4,13 +4,15 @@
 //! Families whose next member is the derivative of one: rules that cancel nowhere, whatever the order.
 
 use super::cardinal::{exprel_partial, horner};
-use super::derivative::{call, plus, reciprocal, scaled, square};
+use super::derivative::{call, plus, reciprocal, scaled};
 use super::{Derivative, Gpu, Row, Typing, Weight};
 use crate::ir::{Graph, Id, Op, Prim};
 use crate::reference::{erf, rational, real};
 
 /// The last member of the families of quotients and of erfcx that there is a function for.
 pub const MAX_MOMENT: u8 = 7;
+/// The last moment of a part of a Gaussian.
+pub const MAX_MASS_MOMENT: u8 = 3;
 
 pub fn rows() -> Vec<Row> {
     let rows = quotients().into_iter().chain(spherical());
@@ -118,7 +120,7 @@ fn spherical() -> [Row; 2] {
     ]
 }
 
-fn errors() -> [Row; 4] {
+fn errors() -> [Row; 6] {
     let one = |prim, name, usage, doc, real, derivative, gpu, cost| Row {
         prim,
         mnemonic: name,
@@ -186,10 +188,40 @@ fn errors() -> [Row; 4] {
             Gpu::Library("real_gauss", None),
             16,
         ),
+        Row {
+            typing: Typing::Real(2),
+            ..one(
+                Prim::GaussOfSum,
+                "gauss_of_sum",
+                "",
+                "exp(-(x + y)²), with no error of the sum",
+                |a: &[f64]| erf::gauss_of_sum(a[0], a[1]),
+                |g, args, value, _| {
+                    let sum = g.add(args[0], args[1]);
+                    let factor = scaled(g, -2.0, sum);
+                    g.mul(factor, value)
+                },
+                Gpu::Library("real_gauss_of_sum", None),
+                20,
+            )
+        },
+        Row {
+            typing: Typing::Real(2),
+            ..one(
+                Prim::ExpOfProduct,
+                "exp_of_product",
+                "",
+                "exp(x y), with no error of the product",
+                |a: &[f64]| erf::exp_of_product(a[0], a[1]),
+                |g, args, value, k| g.mul(args[1 - k], value),
+                Gpu::Library("real_exp_of_product", None),
+                20,
+            )
+        },
     ]
 }
 
-fn masses() -> [Row; 2] {
+fn masses() -> [Row; 4] {
     [
         Row {
             prim: Prim::GaussMass,
@@ -218,6 +250,37 @@ fn masses() -> [Row; 2] {
             gpu: Gpu::Library("real_gauss_mass_scaled", None),
             gpu_complex: "",
             cost: weight(80),
+        },
+        Row {
+            prim: Prim::GaussMassMoment(1),
+            mnemonic: "gauss_mass_moment",
+            names: &[],
+            usage: "",
+            doc: "∫ (u - a)ᵏ exp(a² - u²) du over an interval right of 0 that begins at a",
+            typing: Typing::Real(2),
+            real: None,
+            complex: None,
+            derivative: Derivative::Partial(moment_partial),
+            gpu: Gpu::Family("real_gauss_mass_moment"),
+            gpu_complex: "",
+            cost: weight(120),
+        },
+        Row {
+            prim: Prim::SquarePlus,
+            mnemonic: "square_plus",
+            names: &[],
+            usage: "",
+            doc: "x² + p, rounded once",
+            typing: Typing::Real(2),
+            real: Some(|a| real::square_plus(a[0], a[1])),
+            complex: None,
+            derivative: Derivative::Partial(|g, args, _, k| match k {
+                0 => scaled(g, 2.0, args[0]),
+                _ => g.real(1.0),
+            }),
+            gpu: Gpu::Library("real_square_plus", None),
+            gpu_complex: "",
+            cost: weight(10),
         },
     ]
 }
@@ -259,33 +322,42 @@ fn atan_quotient_slope(g: &mut Graph, z: Id, n: u8, value: Id) -> Id {
     where_less(g, z, two, near, far)
 }
 
-/// By x: -1/(x² + p). By p: for x > 0, p < 2 x² by the derivative of atanq in p/x², else (x/(x² + p) - value)/2p.
+/// By x: -1/(x² + p). By p: for x > 0, |p| moderate beside x², by the derivative of atanq in p/x², else (x/(x² + p) - value)/2p.
 fn atan2_quotient_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     let (p, x) = (args[0], args[1]);
-    let xx = square(g, x);
-    let sum = g.add(xx, p);
+    let sum = g.apply(Prim::SquarePlus, &[x, p]);
     if k == 1 {
         let inverse = reciprocal(g, sum);
         return g.neg(inverse);
     }
-    let quotient = g.div(x, sum);
+    let first = g.div(p, x);
+    let ratio = g.div(first, x);
+    let quotient = quotient_by_square(g, x, sum, first);
     let difference = g.sub(quotient, value);
     let double = scaled(g, 2.0, p);
     let far = g.div(difference, double);
-    let ratio = g.div(p, x);
-    let ratio = g.div(ratio, x);
     let inner = g.apply(Prim::AtanQuotient(0), &[ratio]);
     let mut near = atan_quotient_slope(g, ratio, 0, inner);
     for _ in 0..3 {
         near = g.div(near, x);
     }
-    let (zero, two) = (g.real(0.0), g.real(2.0));
-    let conditions = [
-        g.apply(Prim::Less, &[zero, x]),
-        g.apply(Prim::Less, &[ratio, two]),
-    ];
-    let is_near = g.apply(Prim::And, &conditions);
+    let (zero, least, most) = (g.real(0.0), g.real(-0.6), g.real(2.0));
+    let right = g.apply(Prim::Less, &[zero, x]);
+    let above = g.apply(Prim::Less, &[least, ratio]);
+    let below = g.apply(Prim::Less, &[ratio, most]);
+    let moderate = g.apply(Prim::And, &[above, below]);
+    let is_near = g.apply(Prim::And, &[right, moderate]);
     g.apply(Prim::Select, &[is_near, near, far])
+}
+
+/// x/(x² + p) from x² + p and p/x: 1/(x + p/x) where x² may overflow.
+fn quotient_by_square(g: &mut Graph, x: Id, sum: Id, first: Id) -> Id {
+    let plain = g.div(x, sum);
+    let inverse = g.add(x, first);
+    let inverse = reciprocal(g, inverse);
+    let size = call(g, Prim::Abs, x);
+    let large = g.real(1e18);
+    where_less(g, large, size, inverse, plain)
 }
 
 /// ∫ sⁿ/(1 + z s)ⁿ⁺¹ over [0, 1] has the derivative -(n + 1) times the next one.
@@ -404,12 +476,14 @@ fn erfcx_partial(g: &mut Graph, args: &[Id], value: Id, _: usize) -> Id {
 fn mass_partial(g: &mut Graph, args: &[Id], _: Id, k: usize) -> Id {
     let (c, w) = (args[0], args[1]);
     if k == 1 {
-        let ends = [g.add(c, w), g.sub(c, w)].map(|u| g.apply(Prim::Gauss, &[u]));
-        return g.add(ends[0], ends[1]);
+        let far = g.apply(Prim::GaussOfSum, &[c, w]);
+        let turned = g.neg(w);
+        let near = g.apply(Prim::GaussOfSum, &[c, turned]);
+        return g.add(far, near);
     }
     let sizes = [c, w].map(|a| g.apply(Prim::Abs, &[a]));
-    let near = g.sub(sizes[0], sizes[1]);
-    let near = call(g, Prim::Gauss, near);
+    let turned = g.neg(sizes[1]);
+    let near = g.apply(Prim::GaussOfSum, &[sizes[0], turned]);
     let fall = ends_difference(g, c, w);
     g.mul(near, fall)
 }
@@ -424,29 +498,49 @@ fn ends_difference(g: &mut Graph, c: Id, w: Id) -> Id {
     g.mul(sign, fall)
 }
 
-/// Where the interval holds 0 that of the mass, else with m = |c| - |w| by c sign(c w) (e^{-4|c w|} - 1) + 2 m sign(c) f, by w
-/// 1 + e^{-4|c w|} - 2 m |f|.
+/// Where the interval holds 0 that of the mass; else its first moment M gives both, by c -2 sign(c w) M, by w
+/// 2 (e^{-4|c w|} + M).
 fn scaled_mass_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     let (c, w) = (args[0], args[1]);
     let inside = mass_partial(g, args, value, k);
-    let sizes = [c, w].map(|a| g.apply(Prim::Abs, &[a]));
-    let distance = g.sub(sizes[0], sizes[1]);
-    let double = scaled(g, 2.0, distance);
-    let outside = if k == 0 {
-        let fall = ends_difference(g, c, w);
-        let sign = call(g, Prim::Sign, c);
-        let rest = g.mul(double, value);
-        let rest = g.mul(sign, rest);
-        g.add(fall, rest)
+    let outside = moment_slope(g, c, w, 0, k);
+    let turned = if k == 0 {
+        let sign = call(g, Prim::Sign, w);
+        g.mul(sign, outside)
     } else {
-        let product = g.mul(c, w);
-        let size = call(g, Prim::Abs, product);
-        let steepness = scaled(g, -4.0, size);
-        let exp = call(g, Prim::Exp, steepness);
-        let ends = plus(g, exp, 1.0);
-        let size = call(g, Prim::Abs, value);
-        let rest = g.mul(double, size);
-        g.sub(ends, rest)
+        outside
     };
-    where_less(g, sizes[1], sizes[0], outside, inside)
+    let sizes = [c, w].map(|a| g.apply(Prim::Abs, &[a]));
+    where_less(g, sizes[1], sizes[0], turned, inside)
+}
+
+/// By |w| the n-th moment has the derivative 2 (2|w|)ⁿ e^{-4|c w|} + 2 M, by |c| -2 M, with the next moment M.
+fn moment_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
+    let n = order_of(g, value);
+    let slope = moment_slope(g, args[0], args[1], n, k);
+    if k == 0 {
+        return slope;
+    }
+    let sign = call(g, Prim::Sign, args[1]);
+    g.mul(sign, slope)
+}
+
+/// The derivative of the n-th moment by c, or by |w|.
+fn moment_slope(g: &mut Graph, c: Id, w: Id, n: u8, k: usize) -> Id {
+    let next = g.apply(Prim::GaussMassMoment(n + 1), &[c, w]);
+    if k == 0 {
+        let sign = call(g, Prim::Sign, c);
+        let slope = scaled(g, -2.0, next);
+        return g.mul(sign, slope);
+    }
+    let sizes = [c, w].map(|a| g.apply(Prim::Abs, &[a]));
+    let rate = scaled(g, -4.0, sizes[0]);
+    let mut end = g.apply(Prim::ExpOfProduct, &[rate, sizes[1]]);
+    if n > 0 {
+        let length = scaled(g, 2.0, sizes[1]);
+        let power = g.apply(Prim::PowInt(n.into()), &[length]);
+        end = g.mul(power, end);
+    }
+    let sum = g.add(end, next);
+    scaled(g, 2.0, sum)
 }

@@ -223,6 +223,7 @@ fn last_order(prim: Prim) -> u8 {
     match prim {
         Prim::Polygamma(_) => MAX_POLYGAMMA,
         Prim::SphericalJ(_) | Prim::SphericalIScaled(_) => MAX_SPHERICAL,
+        Prim::GaussMassMoment(_) => integral::MAX_MASS_MOMENT,
         _ => integral::MAX_MOMENT,
     }
 }

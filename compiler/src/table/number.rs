@@ -67,6 +67,7 @@ fn structural(prim: Prim, operands: &[Number]) -> Option<Number> {
         (Prim::Log1pRel(n), &[C(z)]) => C(z.log1prel(n)),
         (Prim::SphericalJ(n), &[R(x)]) => R(reference::bessel::spherical_j(n, x)),
         (Prim::SphericalIScaled(n), &[R(x)]) => R(reference::bessel::spherical_i_scaled(n, x)),
+        (Prim::GaussMassMoment(n), &[R(c), R(w)]) => R(reference::erf::mass_moment(n, c, w)),
         (Prim::Erfcx(n), &[R(x)]) => R(reference::erf::erfcx(n, x)),
         (Prim::Complex, &[R(re), R(im)]) => C(complex(re, im)),
         (Prim::Re, &[C(z)]) => R(z.re),

@@ -82,14 +82,16 @@ pub fn cases(word: &str, domain: Domain) -> Result<Vec<Case>, String> {
 
 fn read() -> Result<Index, String> {
     let mut index = Index::new();
-    let kinds: [(Reader, Domain); 4] = [
+    let kinds: [(Reader, Domain); 6] = [
         (real_oracle, Domain::Real),
         (complex_oracle, Domain::Complex),
         (real_edge, Domain::Real),
         (complex_edge, Domain::Complex),
+        (real_edge, Domain::Real),
+        (complex_edge, Domain::Complex),
     ];
     let tables: Vec<&'static str> = text()?.split('\x0c').collect();
-    let (wide, plain) = tables.split_last().ok_or("no tables")?;
+    let (plain, wide) = tables.split_at_checked(kinds.len()).ok_or("no tables")?;
     for (table, (parse, domain)) in plain.iter().zip(kinds) {
         for line in rows(table) {
             let cells: Vec<&'static str> = line.split('\t').collect();
@@ -98,7 +100,7 @@ fn read() -> Result<Index, String> {
             index.entry((word, domain)).or_default().push(case);
         }
     }
-    for line in rows(wide) {
+    for line in wide.iter().flat_map(|table| rows(table)) {
         let (word, domain, case) =
             wide_row(line).ok_or_else(|| format!("a reference is malformed: {line}"))?;
         index.entry((word, domain)).or_default().push(case);

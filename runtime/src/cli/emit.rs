@@ -49,6 +49,8 @@ enum Part {
     Gradient,
     /// The function with its complex derivative
     Derivative,
+    /// The integral of a function of space along a ray, from its origin and direction and both ends
+    Integral,
     /// The whole picture
     Scene,
 }
@@ -78,6 +80,7 @@ pub(super) fn run(arguments: &EmitArguments, console: &Console) -> Result<(), Fa
         Part::Value => EmitWhat::Value,
         Part::Gradient => EmitWhat::Gradient,
         Part::Derivative => EmitWhat::Derivative,
+        Part::Integral => EmitWhat::Integral,
         Part::Scene => EmitWhat::Scene,
     };
     let index = source.picture(arguments.which, console)?;

@@ -68,6 +68,7 @@ impl Failure {
                 error,
             },
             Error::Invalid { reason } => Self::usage(reason),
+            Error::Mesh { .. } => Self::usage(error.to_string()),
             error => Self::Device(error),
         }
     }

@@ -19,6 +19,7 @@ use pullback_runtime::{
 
 use super::animate::{Animation, Reel};
 use super::failure::Failure;
+use super::mesh;
 use super::overrides::Assignment;
 use super::place::Computer;
 use super::progress::{Counted, Progress};
@@ -125,7 +126,8 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         (_, wanted) => wanted,
     };
     let tier = computer.tier(arguments.numbers.precision, wanted)?;
-    let scene = source.expect(source.program.scene_module(index, tier), console)?;
+    let mut scene = source.expect(source.program.scene_module(index, tier), console)?;
+    mesh::furnish(&mut scene, &settings, arguments.settings.mesh.as_deref())?;
     let bytes = scene.pack_settings(&settings);
     frame.settings = &bytes;
     if let Some(warning) = unresolved(picture, &frame, tier.precision) {

@@ -1,11 +1,14 @@
 //! One picture of a program, ready to be drawn on any machine.
 
+use std::path::PathBuf;
+
 use pullback_compiler::lower::{self, Precision};
 use pullback_compiler::{Picture, SceneModule, SettingValue};
 use pullback_runtime::auto::Scenery;
 use pullback_runtime::{Frame, Gpu, Pipeline, Size, View, fill_in_scale};
 
 use super::failure::Failure;
+use super::mesh;
 use super::place::Computer;
 use super::source::Source;
 use super::{Console, Input, Numbers, Rules, Settings, Which, overrides, render};
@@ -32,6 +35,7 @@ pub(super) struct Subject {
     size: Size,
     samples: u32,
     time: f64,
+    mesh: Option<PathBuf>,
 }
 
 impl Subject {
@@ -53,6 +57,7 @@ impl Subject {
             size: wanted.size,
             samples: wanted.samples,
             time,
+            mesh: wanted.settings.mesh.clone(),
             source,
         })
     }
@@ -71,6 +76,7 @@ impl Subject {
             size,
             samples: 2,
             time: 0.0,
+            mesh: None,
             source,
         })
     }
@@ -132,6 +138,8 @@ impl Subject {
         console: &Console,
     ) -> Result<SceneModule, Failure> {
         let made = self.source.program.scene_module(self.index, tier);
-        self.source.expect(made, console)
+        let mut scene = self.source.expect(made, console)?;
+        mesh::furnish(&mut scene, &self.settings, self.mesh.as_deref())?;
+        Ok(scene)
     }
 }

@@ -91,7 +91,12 @@ impl Painter {
             format,
             words: 1,
             steps: MAX_STEPS,
-            mesh: scene.mesh.as_flattened().iter().map(|&w| w.into()).collect(),
+            mesh: scene
+                .mesh
+                .as_flattened()
+                .iter()
+                .map(|&w| w.into())
+                .collect(),
         })
     }
 

@@ -24,7 +24,12 @@ pub(super) fn packed(surface: &Surface) -> Vec<[u32; 4]> {
     let mut triangles = surface.triangles.clone();
     let nodes = hierarchy(&mut triangles, &corners);
     let vertices = 1 + 2 * nodes.len() + triangles.len();
-    let mut words = vec![[nodes.len() as u32, triangles.len() as u32, vertices as u32, 0]];
+    let mut words = vec![[
+        nodes.len() as u32,
+        triangles.len() as u32,
+        vertices as u32,
+        0,
+    ]];
     for node in &nodes {
         words.push(with(node.low - MARGIN, node.next));
         words.push(with(node.high + MARGIN, node.first << 4 | node.count));

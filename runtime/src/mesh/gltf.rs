@@ -55,7 +55,9 @@ fn add_node(
         };
         let mut triangles = numbers.as_chunks().0.to_vec();
         if place.determinant() < 0.0 {
-            triangles.iter_mut().for_each(|t: &mut [u32; 3]| t.swap(1, 2));
+            triangles
+                .iter_mut()
+                .for_each(|t: &mut [u32; 3]| t.swap(1, 2));
         }
         surface.add(&vertices, &triangles)?;
     }
@@ -67,10 +69,15 @@ fn add_node(
 
 fn buffers(file: &gltf::Gltf, path: &Path) -> Result<Vec<Vec<u8>>, String> {
     let bytes = |source: Source| match source {
-        Source::Bin => file.blob.clone().ok_or("the binary part is missing".to_owned()),
+        Source::Bin => file
+            .blob
+            .clone()
+            .ok_or("the binary part is missing".to_owned()),
         Source::Uri(uri) => match uri.strip_prefix("data:") {
             Some(data) => {
-                let (_, text) = data.split_once(";base64,").ok_or("a buffer is not in base64")?;
+                let (_, text) = data
+                    .split_once(";base64,")
+                    .ok_or("a buffer is not in base64")?;
                 base64::engine::general_purpose::STANDARD
                     .decode(text)
                     .map_err(|error| format!("a buffer: {error}"))

@@ -70,7 +70,12 @@ impl Surface {
         }
         let place = |v: u32| new[v as usize];
         let real = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
-        out.triangles = self.triangles.iter().map(|t| t.map(place)).filter(real).collect();
+        out.triangles = self
+            .triangles
+            .iter()
+            .map(|t| t.map(place))
+            .filter(real)
+            .collect();
         Ok(out)
     }
 

@@ -125,18 +125,7 @@ impl<'a> Builder<'a> {
         let Range { name, lower, upper } = written.range;
         let exprs = &self.file.exprs;
         let [body, a, b] = [written.body, *lower, *upper].map(|e| shortened(&print_expr(exprs, e)));
-        let is_known = problem.span != Span::default();
-        let place = if is_known { problem.span } else { written.span };
-        let message = if problem.reason.is_proven() {
-            "this integral has no elementary closed form"
-        } else {
-            "no closed form of this integral is known here"
-        };
-        let mut diagnostic = Diagnostic::error("no-closed-form", place, message)
-            .with_label(problem.reason.in_words());
-        if place != written.span {
-            diagnostic = diagnostic.with_related(written.span, "in this integral");
-        }
+        let mut diagnostic = problem.diagnostic(written.span);
         if written.method == Method::Closed {
             let call = format!("quadrature({body}, {}, {a}, {b})", shortened(&name.text));
             diagnostic = diagnostic.with_hint(format!("`{call}` computes it numerically"));

@@ -4,9 +4,7 @@ use std::io::{self, Write};
 
 use pullback_compiler::Picture;
 use pullback_compiler::formula::Formula;
-use pullback_compiler::integrate::{self, Explanation, Problem, Record};
-use pullback_compiler::types::Type;
-use pullback_grammar::Diagnostic;
+use pullback_compiler::integrate::{self, Explanation, Record};
 use serde::Serialize;
 
 use super::super::Console;
@@ -54,12 +52,8 @@ pub(super) fn run(
     console: &Console,
 ) -> Result<(), Failure> {
     let formula = &picture.formula;
-    let made = match check(formula) {
-        Ok(()) => {
-            integrate::explain(formula, params).map_err(|problem| vec![refusal(formula, &problem)])
-        }
-        Err(problem) => Err(vec![problem]),
-    };
+    let made = integrate::explain(formula, params)
+        .map_err(|problem| vec![problem.diagnostic(formula.span)]);
     let found = source.expect(made, console)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
     match format {
@@ -68,34 +62,6 @@ pub(super) fn run(
     }
     .and_then(|()| out.flush())
     .map_err(Failure::stdout)
-}
-
-/// Fails where the formula is no real function of space.
-fn check(formula: &Formula) -> Result<(), Diagnostic> {
-    let is_real = |ty: &pullback_compiler::ir::Ty| *ty == pullback_compiler::ir::Ty::Real;
-    if formula.ty == Type::Real && formula.scalars().iter().all(is_real) {
-        return Ok(());
-    }
-    Err(Diagnostic::error(
-        "wrong-inputs",
-        formula.span,
-        "the integral along a ray is of a real function of x, y and z",
-    )
-    .with_hint("write `f(x, y, z) = …`"))
-}
-
-fn refusal(formula: &Formula, problem: &Problem) -> Diagnostic {
-    let place = if problem.span == Default::default() {
-        formula.span
-    } else {
-        problem.span
-    };
-    Diagnostic::error(
-        "too-large",
-        place,
-        "this is too large to be integrated along a ray",
-    )
-    .with_label(problem.reason.in_words())
 }
 
 fn tell(out: &mut impl Write, formula: &Formula, found: &Explanation) -> io::Result<()> {

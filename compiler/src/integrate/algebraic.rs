@@ -1,0 +1,475 @@
+//! Powers and logarithms of quadratics, alone and beside polynomials.
+//!
+//! q = a s² + 2 b s + c with the discriminant D = a c - b², r₀ and r₁ the roots of q at the ends, E = c - a h²,
+//! s₀ = -b/a the place of the least q, σ = s - s₀. Each rule has a form for short intervals, |a| h² < c/4, in which
+//! the zeros of q are further from the middle than 2h: there nodes of Gauss and Legendre take the integrand as it is;
+//! or its form holds everywhere.
+
+use super::arithmetic::{add, call, if_less, mul, scale, square, sub, total};
+use super::exponential::NEAR;
+use super::legendre::nodes_for_exponential;
+use super::quadratic::Quadratic;
+use super::rule::Rule;
+use super::{Integrator, Problem, Reason};
+use crate::ir::{Id, Prim};
+
+/// Greatest degree of a polynomial beside a power.
+pub const MAX_DEGREE_BESIDE_POWER: u32 = 12;
+/// Nodes on intervals whose nearest singularity is 2h from the middle: (2 + √3)⁻²⁴ is 2e-14.
+pub(super) const NEAR_NODES: usize = 12;
+/// Below it a quadratic counts as 0 where its logarithm is multiplied by 0.
+const TINY: f64 = 1e-37;
+
+/// A quadratic with what its rules share.
+#[derive(Clone, Copy)]
+pub(super) struct Bowl {
+    q: Quadratic,
+    /// a h²
+    reach: Id,
+    /// Length of the interval with its sign.
+    length: Id,
+    /// Values at the ends s = -h and s = h.
+    ends: [Id; 2],
+}
+
+impl Integrator<'_> {
+    /// ∫ of a polynomial times a power of a quadratic, exponent a whole multiple of 1/2.
+    pub(super) fn quadratic_power(
+        &mut self,
+        source: Id,
+        polynomials: &[Id],
+        base: Id,
+        exponent: Id,
+    ) -> Result<(Id, Rule), Problem> {
+        let not_found = |this: &Self| this.problem(source, Reason::NotFound);
+        let twice = self
+            .g
+            .as_real(exponent)
+            .map(|r| 2.0 * r)
+            .filter(|r| r.fract() == 0.0 && r.abs() <= 24.0);
+        let Some(twice) = twice else {
+            return Err(self.problem(source, Reason::Hypergeometric));
+        };
+        #[allow(
+            clippy::cast_possible_truncation,
+            reason = "a whole number of at most 24"
+        )]
+        let twice = twice as i32;
+        let degree = self.polynomial_degree(polynomials);
+        if degree > MAX_DEGREE_BESIDE_POWER {
+            return Err(self.bound_beside(source));
+        }
+        let bowl = self.bowl(base);
+        match (twice, degree) {
+            (-2, 0) => Ok((self.reciprocal(&bowl), Rule::Reciprocal)),
+            (-1, 0) => Ok((self.reciprocal_root(&bowl), Rule::ReciprocalRoot)),
+            (1, 0) => Ok((self.root_alone(&bowl), Rule::Root)),
+            (-3, 0) => Ok((self.reciprocal_cube(&bowl), Rule::ReciprocalCube)),
+            (..=-3, m) if i64::from(m) <= i64::from(-twice - 2) => {
+                let k = twice.unsigned_abs().saturating_sub(2);
+                Ok((self.equiangular(&bowl, polynomials, k), Rule::Equiangular))
+            }
+            (-2.., _) => {
+                let far = self.moments(&bowl, polynomials, degree, Moments::Power(twice));
+                let integrand =
+                    self.beside(polynomials, super::term::Factor::Power(base, exponent));
+                Ok((
+                    self.near_or(&bowl, integrand, degree, far),
+                    Rule::PolynomialByPower,
+                ))
+            }
+            _ => Err(not_found(self)),
+        }
+    }
+
+    pub(super) fn bound_beside(&self, source: Id) -> Problem {
+        let bound = MAX_DEGREE_BESIDE_POWER as usize;
+        self.problem(
+            source,
+            Reason::Bound(
+                "degrees of a polynomial beside a power or a logarithm",
+                bound,
+            ),
+        )
+    }
+
+    /// ∫ of a polynomial times the logarithm of a quadratic.
+    pub(super) fn quadratic_log(
+        &mut self,
+        source: Id,
+        polynomials: &[Id],
+        base: Id,
+    ) -> Result<(Id, Rule), Problem> {
+        let degree = self.polynomial_degree(polynomials);
+        if degree > MAX_DEGREE_BESIDE_POWER {
+            return Err(self.bound_beside(source));
+        }
+        let bowl = self.bowl(base);
+        let far = self.moments(&bowl, polynomials, degree, Moments::Log);
+        let integrand = self.beside(polynomials, super::term::Factor::Log(base));
+        Ok((
+            self.near_or(&bowl, integrand, degree, far),
+            Rule::LogQuadratic,
+        ))
+    }
+
+    pub(super) fn beside(&mut self, polynomials: &[Id], factor: super::term::Factor) -> Id {
+        let value = factor.expression(self.g);
+        polynomials
+            .iter()
+            .fold(value, |product, &p| mul(self.g, product, p))
+    }
+
+    fn bowl(&mut self, base: Id) -> Bowl {
+        let q = self.quadratic(base);
+        let half = self.path.half;
+        let square_half = square(self.g, half);
+        let back = self.g.neg(half);
+        let ends = [back, half].map(|s| self.at(&[base], s)[0]);
+        Bowl {
+            q,
+            reach: mul(self.g, q.a, square_half),
+            length: self.length_of_path(),
+            ends,
+        }
+    }
+
+    /// The nodes of the integrand where the interval is short, else the other form.
+    fn near_or(&mut self, bowl: &Bowl, integrand: Id, degree: u32, far: Id) -> Id {
+        let near = self.gauss(integrand, NEAR_NODES + degree.div_ceil(2) as usize);
+        let reach = call(self.g, Prim::Abs, bowl.reach);
+        let limit = scale(self.g, 0.25, bowl.q.c);
+        if_less(self.g, reach, limit, near, far)
+    }
+
+    /// E = c - a h²
+    fn chord(&mut self, bowl: &Bowl) -> Id {
+        sub(self.g, bowl.q.c, bowl.reach)
+    }
+
+    /// ∫ 1/q = L atan2(√(D L²), E)/√(D L²), which is one formula through D = 0.
+    fn reciprocal(&mut self, bowl: &Bowl) -> Id {
+        let e = self.chord(bowl);
+        let square_length = square(self.g, bowl.length);
+        let p = mul(self.g, bowl.q.discriminant, square_length);
+        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, e]);
+        mul(self.g, bowl.length, quotient)
+    }
+
+    fn roots(&mut self, bowl: &Bowl) -> ([Id; 2], Id) {
+        let roots = bowl.ends.map(|q| call(self.g, Prim::Sqrt, q));
+        (roots, self.g.add(roots[0], roots[1]))
+    }
+
+    /// r₀ r₁ + E, which is D L²/(r₀ r₁ - E) where E < 0.
+    fn width(&mut self, bowl: &Bowl, roots: [Id; 2]) -> Id {
+        let e = self.chord(bowl);
+        let product = mul(self.g, roots[0], roots[1]);
+        let sum = add(self.g, product, e);
+        let square_length = square(self.g, bowl.length);
+        let p = mul(self.g, bowl.q.discriminant, square_length);
+        let difference = sub(self.g, product, e);
+        let quotient = self.g.div(p, difference);
+        let zero = self.g.real(0.0);
+        if_less(self.g, e, zero, quotient, sum)
+    }
+
+    /// ∫ 1/√q = 2 L atan2(√(-a) L, r₀ + r₁)/(√(-a) L), and where E < 0 the logarithm that this is,
+    /// (2/√a) log((r₀ + r₁ + √a L)/√(2 (r₀ r₁ + E))).
+    fn reciprocal_root(&mut self, bowl: &Bowl) -> Id {
+        let (roots, sum) = self.roots(bowl);
+        let square_length = square(self.g, bowl.length);
+        let p = mul(self.g, bowl.q.a, square_length);
+        let p = self.g.neg(p);
+        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, sum]);
+        let product = mul(self.g, bowl.length, quotient);
+        let open = scale(self.g, 2.0, product);
+        let width = self.width(bowl, roots);
+        let around = self.log_form(bowl, sum, width);
+        let (e, zero) = (self.chord(bowl), self.g.real(0.0));
+        if_less(self.g, e, zero, around, open)
+    }
+
+    fn log_form(&mut self, bowl: &Bowl, sum: Id, width: Id) -> Id {
+        let root = call(self.g, Prim::Sqrt, bowl.q.a);
+        let size = call(self.g, Prim::Abs, bowl.length);
+        let along = mul(self.g, root, size);
+        let top = self.g.add(sum, along);
+        let double = scale(self.g, 2.0, width);
+        let bottom = call(self.g, Prim::Sqrt, double);
+        let ratio = self.g.div(top, bottom);
+        let log = call(self.g, Prim::Log, ratio);
+        let double = scale(self.g, 2.0, log);
+        let value = self.g.div(double, root);
+        let sign = call(self.g, Prim::Sign, bowl.length);
+        mul(self.g, sign, value)
+    }
+
+    /// ∫ √q = L (S/4 + c G - (r₁ - r₀)² A₁(-z)/(4 S)), z = a L²/S², S = r₀ + r₁, G the quotient of the reciprocal root;
+    /// where E < 0 by parts.
+    fn root_alone(&mut self, bowl: &Bowl) -> Id {
+        let (roots, sum) = self.roots(bowl);
+        let floor = self.g.real(1e-12);
+        let safe = self.g.apply(Prim::Max, &[sum, floor]);
+        let square_length = square(self.g, bowl.length);
+        let p = mul(self.g, bowl.q.a, square_length);
+        let p = self.g.neg(p);
+        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, safe]);
+        let ratio = self.g.div(bowl.length, safe);
+        let ratio = square(self.g, ratio);
+        let z = mul(self.g, bowl.q.a, ratio);
+        let z = self.g.neg(z);
+        let moment = self.g.apply(Prim::AtanQuotient(1), &[z]);
+        let difference = self.g.sub(roots[1], roots[0]);
+        let difference = square(self.g, difference);
+        let difference = self.g.div(difference, safe);
+        let correction = mul(self.g, difference, moment);
+        let (quarter, correction) = (scale(self.g, 0.25, sum), scale(self.g, 0.25, correction));
+        let middle = mul(self.g, bowl.q.c, quotient);
+        let mean = add(self.g, quarter, middle);
+        let mean = sub(self.g, mean, correction);
+        let open = mul(self.g, bowl.length, mean);
+        let around = self.power_by_parts(bowl, 1);
+        let (e, zero) = (self.chord(bowl), self.g.real(0.0));
+        if_less(self.g, e, zero, around, open)
+    }
+
+    /// ∫ q^(-3/2) = L (r₀ + r₁)/(r₀ r₁ (r₀ r₁ + E)).
+    fn reciprocal_cube(&mut self, bowl: &Bowl) -> Id {
+        let (roots, sum) = self.roots(bowl);
+        let width = self.width(bowl, roots);
+        let product = mul(self.g, roots[0], roots[1]);
+        let top = self.g.div(sum, product);
+        let mean = self.g.div(top, width);
+        mul(self.g, bowl.length, mean)
+    }
+
+    /// s₀ = -b/a and σ at both ends.
+    fn foot(&mut self, bowl: &Bowl) -> (Id, [Id; 2]) {
+        let ratio = self.g.div(bowl.q.b, bowl.q.a);
+        let half = self.path.half;
+        let back = self.g.neg(half);
+        let offsets = [back, half].map(|s| self.g.add(s, ratio));
+        (self.g.neg(ratio), offsets)
+    }
+
+    /// ∫ q^(n/2) for n > 0 by parts down to the root or to the reciprocal root:
+    /// (n + 1) I = [σ q^(n/2)] + n (D/a) I of n - 2.
+    fn power_by_parts(&mut self, bowl: &Bowl, n: i32) -> Id {
+        let (_, offsets) = self.foot(bowl);
+        let depth = self.g.div(bowl.q.discriminant, bowl.q.a);
+        let (roots, _) = self.roots(bowl);
+        let mut value = self.around_root(bowl);
+        let mut k = 1;
+        while k <= n {
+            let ends = [0, 1].map(|i| {
+                let power = self.g.apply(Prim::PowInt(k), &[roots[i]]);
+                mul(self.g, offsets[i], power)
+            });
+            let ends = self.g.sub(ends[1], ends[0]);
+            let rest = mul(self.g, depth, value);
+            let rest = scale(self.g, f64::from(k), rest);
+            let sum = self.g.add(ends, rest);
+            value = scale(self.g, 1.0 / (f64::from(k) + 1.0), sum);
+            k += 2;
+        }
+        value
+    }
+
+    /// ∫ 1/√q by the logarithm that is finite where D = 0: what it is multiplied by is 0 there.
+    fn around_root(&mut self, bowl: &Bowl) -> Id {
+        let (roots, sum) = self.roots(bowl);
+        let width = self.width(bowl, roots);
+        let least = square(self.g, sum);
+        let least = scale(self.g, 1e-30, least);
+        let floor = self.g.real(TINY);
+        let least = self.g.apply(Prim::Max, &[least, floor]);
+        let width = self.g.apply(Prim::Max, &[width, least]);
+        let log = self.log_form(bowl, sum, width);
+        let square_length = square(self.g, bowl.length);
+        let p = mul(self.g, bowl.q.a, square_length);
+        let p = self.g.neg(p);
+        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, sum]);
+        let product = mul(self.g, bowl.length, quotient);
+        let open = scale(self.g, 2.0, product);
+        let zero = self.g.real(0.0);
+        if_less(self.g, zero, bowl.q.a, log, open)
+    }
+
+    /// Σ p⁽ᵏ⁾(s₀)/k! ∫ σᵏ w for a power or logarithm w of q, where the interval is long.
+    fn moments(&mut self, bowl: &Bowl, polynomials: &[Id], degree: u32, weight: Moments) -> Id {
+        let (foot, offsets) = self.foot(bowl);
+        let coefficients = self.taylor(polynomials, degree, foot);
+        let moments = match weight {
+            Moments::Power(n) => self.power_moments(bowl, offsets, n, degree),
+            Moments::Log => self.log_moments(bowl, offsets, degree),
+        };
+        let parts: Vec<Id> = coefficients
+            .iter()
+            .zip(&moments)
+            .map(|(&c, &m)| mul(self.g, c, m))
+            .collect();
+        total(self.g, parts)
+    }
+
+    /// The coefficients of a product of polynomials around s.
+    pub(super) fn taylor(&mut self, polynomials: &[Id], degree: u32, s: Id) -> Vec<Id> {
+        let one = self.g.real(1.0);
+        let mut derivatives = vec![polynomials.iter().fold(one, |p, &q| mul(self.g, p, q))];
+        for _ in 0..degree {
+            let last = derivatives[derivatives.len() - 1];
+            derivatives.push(self.slope(last));
+        }
+        let values = self.at(&derivatives, s);
+        let mut factorial = 1.0;
+        let mut out = Vec::new();
+        for (k, &value) in (0_u32..).zip(&values) {
+            factorial *= f64::from(k.max(1));
+            out.push(scale(self.g, 1.0 / factorial, value));
+        }
+        out
+    }
+
+    /// Fₖ = ∫ σᵏ q^(n/2): (n + 1 + k) Fₖ = [σᵏ⁻¹ q^(n/2 + 1)]/a - (k - 1) (D/a²) Fₖ₋₂.
+    fn power_moments(&mut self, bowl: &Bowl, offsets: [Id; 2], n: i32, degree: u32) -> Vec<Id> {
+        let first = match n {
+            -2 => self.reciprocal(bowl),
+            -1 => self.reciprocal_root(bowl),
+            n if n % 2 == 0 => self.length_of_path(),
+            n => self.power_by_parts(bowl, n),
+        };
+        let raised = bowl.ends.map(|q| self.half_power(q, n + 2));
+        let mut out = vec![first];
+        let depth = self.g.div(bowl.q.discriminant, bowl.q.a);
+        let depth = self.g.div(depth, bowl.q.a);
+        for k in 1..=i32::try_from(degree).unwrap_or(0) {
+            let value = if k == 1 && n == -2 {
+                let ratio = self.g.div(bowl.ends[1], bowl.ends[0]);
+                let log = call(self.g, Prim::Log, ratio);
+                let half = scale(self.g, 0.5, log);
+                self.g.div(half, bowl.q.a)
+            } else {
+                let ends = [0, 1].map(|i| {
+                    let power = self.g.apply(Prim::PowInt(k - 1), &[offsets[i]]);
+                    mul(self.g, power, raised[i])
+                });
+                let ends = self.g.sub(ends[1], ends[0]);
+                let mut sum = self.g.div(ends, bowl.q.a);
+                if k > 1 {
+                    let last = out[out.len() - 2];
+                    let rest = mul(self.g, depth, last);
+                    let rest = scale(self.g, f64::from(k - 1), rest);
+                    sum = self.g.sub(sum, rest);
+                }
+                scale(self.g, 1.0 / f64::from(n + 1 + k), sum)
+            };
+            out.push(value);
+        }
+        out
+    }
+
+    /// (k + 1) ∫ σᵏ log q = [σᵏ⁺¹ log q] - 2 a ∫ σᵏ⁺²/q.
+    fn log_moments(&mut self, bowl: &Bowl, offsets: [Id; 2], degree: u32) -> Vec<Id> {
+        let rational = self.power_moments(bowl, offsets, -2, degree + 2);
+        let floor = self.g.real(TINY);
+        let logs = bowl.ends.map(|q| {
+            let q = self.g.apply(Prim::Max, &[q, floor]);
+            call(self.g, Prim::Log, q)
+        });
+        let mut out = Vec::new();
+        for k in 0..=i32::try_from(degree).unwrap_or(0) {
+            let ends = [0, 1].map(|i| {
+                let power = self.g.apply(Prim::PowInt(k + 1), &[offsets[i]]);
+                mul(self.g, power, logs[i])
+            });
+            let ends = self.g.sub(ends[1], ends[0]);
+            let index = usize::try_from(k + 2).unwrap_or(0);
+            let rest = mul(self.g, bowl.q.a, rational[index]);
+            let rest = scale(self.g, 2.0, rest);
+            let sum = self.g.sub(ends, rest);
+            out.push(scale(self.g, 1.0 / f64::from(k + 1), sum));
+        }
+        out
+    }
+
+    /// q^(n/2)
+    fn half_power(&mut self, q: Id, n: i32) -> Id {
+        if n % 2 == 0 {
+            return self.g.apply(Prim::PowInt(n / 2), &[q]);
+        }
+        let root = call(self.g, Prim::Sqrt, q);
+        self.g.apply(Prim::PowInt(n), &[root])
+    }
+
+    /// ∫ p q^(n/2) ds = ∫ p q^(n/2 + 1) du by u = ∫ ds/q from the middle, which is the angle under which the interval is
+    /// seen from the zero of q, over √D. There s = c u sinc(√D u)/B and q = c/B², B = cos(√D u) - b u sinc(√D u): what
+    /// remains is a polynomial in sin and cos of degree k = -n - 2, for which nodes over the angle are enough. B is the
+    /// cosine of the angle from the foot times √(a c/D), so that nothing cancels where the integrand is large.
+    ///
+    /// Kulla and Fajardo, "Importance sampling techniques for path tracing in participating media", 2012, for the map.
+    fn equiangular(&mut self, bowl: &Bowl, polynomials: &[Id], k: u32) -> Id {
+        let q = bowl.q;
+        let back = self.g.neg(self.path.half);
+        let ends = [back, self.path.half].map(|s| self.angle_from_middle(&q, s));
+        let (sum, difference) = (self.g.add(ends[0], ends[1]), self.reciprocal(bowl));
+        let (middle, reach) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, difference));
+        let root = call(self.g, Prim::Sqrt, q.discriminant);
+        let one = self.g.real(1.0);
+        let product = polynomials
+            .iter()
+            .fold(one, |product, &p| mul(self.g, product, p));
+        let exponent = i32::try_from(k).unwrap_or(0);
+        let count = nodes_for_exponential(std::f64::consts::FRAC_PI_2 * f64::from(k), 0, NEAR);
+        let mut sum = self.g.real(0.0);
+        for node in super::gauss_legendre(count) {
+            let sides: &[f64] = if node.place == 0.0 {
+                &[1.0]
+            } else {
+                &[1.0, -1.0]
+            };
+            for &side in sides {
+                let offset = scale(self.g, side * node.place, reach);
+                let u = add(self.g, middle, offset);
+                let turn = mul(self.g, root, u);
+                let (sine, cosine) = (
+                    call(self.g, Prim::Sinc, turn),
+                    call(self.g, Prim::Cos, turn),
+                );
+                let step = mul(self.g, u, sine);
+                let down = mul(self.g, q.b, step);
+                let base = sub(self.g, cosine, down);
+                let mut value = self.g.apply(Prim::PowInt(exponent), &[base]);
+                if product != one {
+                    let top = mul(self.g, q.c, step);
+                    let s = self.g.div(top, base);
+                    let factor = self.at(&[product], s)[0];
+                    value = mul(self.g, value, factor);
+                }
+                let value = scale(self.g, node.weight, value);
+                sum = add(self.g, sum, value);
+            }
+        }
+        let size = self.half_power(q.c, exponent);
+        let mean = self.g.div(sum, size);
+        mul(self.g, reach, mean)
+    }
+
+    /// ∫ ds/q from the middle to s.
+    fn angle_from_middle(&mut self, q: &Quadratic, s: Id) -> Id {
+        let step = mul(self.g, q.b, s);
+        let x = add(self.g, q.c, step);
+        let square_s = square(self.g, s);
+        let p = mul(self.g, q.discriminant, square_s);
+        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, x]);
+        mul(self.g, s, quotient)
+    }
+}
+
+/// What a polynomial is multiplied by.
+#[derive(Clone, Copy)]
+enum Moments {
+    /// q^(n/2)
+    Power(i32),
+    /// log q
+    Log,
+}
