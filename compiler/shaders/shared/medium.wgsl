@@ -132,5 +132,9 @@ fn sample_phase(pixel: vec2f) -> f32 {
 fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f {
     let exposed = max(radiance * exposure, vec3f(0.0));
     let curved = select(exposed, exposed / (1.0 + exposed), tone == 0u);
-    return pow(max(min(curved, vec3f(1.0)), vec3f(1e-20)), vec3f(1.0 / gamma));
+    let shown = min(curved, vec3f(1.0));
+    if gamma == 1.0 { // a power is good to fewer digits
+        return shown;
+    }
+    return pow(max(shown, vec3f(1e-20)), vec3f(1.0 / gamma));
 }

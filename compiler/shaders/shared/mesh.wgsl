@@ -55,7 +55,14 @@ fn edge_area(a: vec3f, b: vec3f, forward: bool) -> f32 {
     return p.x * q.y - p.y * q.x;
 }
 
-// One crossing of a triangle; side 0 if there is none. An origin on an edge belongs to one of the two triangles at it.
+// Whether the origin is to the left of the edge from a to b. One that is on the edge counts as if it were a little to the right,
+// and a still smaller bit further up, for every triangle alike, so that it belongs to just one of those at an edge or a vertex
+// (H. Edelsbrunner and E. Mücke, "Simulation of simplicity", ACM Transactions on Graphics 9, 1990).
+fn is_left(area: f32, a: vec3f, b: vec3f) -> bool {
+    return area > 0.0 || area == 0.0 && (a.y > b.y || a.y == b.y && b.x > a.x);
+}
+
+// One crossing of a triangle; side 0 if there is none.
 fn triangle_hit(triangle: u32, shear: Shear) -> MeshHit {
     let at = mesh[1u + 2u * mesh[0].x + triangle].xyz;
     let a = sheared(at.x, shear);
@@ -63,11 +70,11 @@ fn triangle_hit(triangle: u32, shear: Shear) -> MeshHit {
     let c = sheared(at.z, shear);
     let forward = vec3<bool>(at.y < at.z, at.z < at.x, at.x < at.y);
     let raw = vec3f(edge_area(b, c, forward.x), edge_area(c, a, forward.y), edge_area(a, b, forward.z));
-    let left = (raw >= vec3f(0.0)) == forward;
+    let area = select(-raw, raw, forward);
+    let left = vec3<bool>(is_left(area.x, b, c), is_left(area.y, c, a), is_left(area.z, a, b));
     if any(left != left.yzx) {
         return MeshHit(0.0, 0.0, MeshCursor());
     }
-    let area = select(-raw, raw, forward);
     let whole = area.x + area.y + area.z;
     let depth = dot(area, vec3f(a.z, b.z, c.z)) / select(whole, 1.0, whole == 0.0);
     return MeshHit(select(depth, a.z, whole == 0.0), select(-1.0, 1.0, left.x), MeshCursor());

@@ -57,6 +57,12 @@ impl Ray {
 }
 
 impl Camera {
+    /// World units of a pixel at the distance of the origin.
+    pub fn pixel(&self) -> f64 {
+        let [width, height] = self.size.map(f64::from);
+        2.0 * (0.5 * self.fov.to_radians()).tan() / width.min(height) * self.distance
+    }
+
     /// The ray through a point of the image, y down.
     pub fn ray(&self, x: f64, y: f64) -> Ray {
         let (yaw, pitch) = (self.yaw.to_radians(), self.pitch.to_radians());

@@ -43,7 +43,22 @@ pub fn draw(gpu: &Gpu, source: &str, size: [u32; 2], samples: u32, time: f64) ->
 
 /// Linear light of each pixel of the first picture of a program, row by row, as the shader computes it.
 pub fn draw_linear(gpu: &Gpu, source: &str, size: [u32; 2], samples: u32) -> Vec<Rgb> {
-    let rows = rendered(gpu, source, size, samples, 0.0, Pipeline::Linear);
+    linear(&rendered(gpu, source, size, samples, 0.0, Pipeline::Linear))
+}
+
+/// [`draw_linear`] of a scene with a mesh.
+pub fn draw_mesh(gpu: &Gpu, source: &str, size: [u32; 2], mesh: Vec<[u32; 4]>) -> Vec<Rgb> {
+    linear(&rendered_mesh(
+        gpu,
+        source,
+        size,
+        1,
+        (0.0, Pipeline::Linear),
+        mesh,
+    ))
+}
+
+fn linear(rows: &[u8]) -> Vec<Rgb> {
     let number = |at: &[u8]| f64::from(f32::from_le_bytes([at[0], at[1], at[2], at[3]]));
     rows.chunks_exact(16)
         .map(|pixel| [0, 4, 8].map(|at| number(&pixel[at..at + 4])))
@@ -58,14 +73,26 @@ fn rendered(
     time: f64,
     pipeline: Pipeline,
 ) -> Vec<u8> {
+    rendered_mesh(gpu, source, size, samples, (time, pipeline), Vec::new())
+}
+
+fn rendered_mesh(
+    gpu: &Gpu,
+    source: &str,
+    size: [u32; 2],
+    samples: u32,
+    (time, pipeline): (f64, Pipeline),
+    mesh: Vec<[u32; 4]>,
+) -> Vec<u8> {
     let compiled = pullback_compiler::compile(source);
     let program = compiled
         .program
         .unwrap_or_else(|| panic!("{source}: {:?}", compiled.diagnostics));
     let picture = &program.pictures()[0];
-    let scene = program
+    let mut scene = program
         .scene_module(0, Precision::Accurate)
         .expect("a scene");
+    scene.mesh = mesh;
     let view = View {
         center: [0.0; 2],
         height: 2.0,

@@ -1,6 +1,7 @@
 //! Pictures of scenes of space against closed forms and f64 references of our own: where planes, lines, layers and light
 //! have to be.
 
+mod additive;
 mod camera;
 mod colour;
 mod cutaway;
