@@ -29,7 +29,7 @@ pub struct Golden {
 }
 
 /// One file of the gallery for each scene.
-const GALLERY: [(&str, &str); 16] = [
+const GALLERY: [(&str, &str); 17] = [
     ("levels", "chladni"),
     ("logcontours", "charges"),
     ("bands", "zone-plate"),
@@ -46,6 +46,7 @@ const GALLERY: [(&str, &str); 16] = [
     ("volumecut", "resonance"),
     ("scatter", "cloud"),
     ("glow", "ember"),
+    ("additive", "hologram"),
 ];
 
 /// Parameters, and values that are undefined, infinite of either sign, and constant.

@@ -545,6 +545,11 @@ fn scenes_of_space_carry_nothing_of_one_another() {
             &["field_grad", "mean_glow"],
             &["field_ray", "march_on", "matter_of", "screen_rate"],
         ),
+        (
+            "additive",
+            &["field_integral", "mesh_next"],
+            &["field", "field_grad", "field_ray", "march_on", "matter_of"],
+        ),
     ] {
         let text = format!("f(x, y, z) = x y + z\nshow {scene}(f)");
         let program = program(&text, &text);

@@ -314,6 +314,7 @@ fn scenes_of_space_hold_one_copy_of_the_formula_for_each_stub() {
         "volumecut",
         "scatter",
         "glow",
+        "additive",
     ] {
         let module = whole(scene(name).expect("a scene"));
         for stub in FIELD_STUBS {

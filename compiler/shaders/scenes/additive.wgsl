@@ -108,7 +108,7 @@ fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f { r
 const FAR: f32 = 1e30;
 const BRIGHTEST: f32 = 1e30;
 const MESH: u32 = 4u;
-const STONE: vec3f = vec3f(0.030, 0.033, 0.040);
+const STONE: vec3f = vec3f(0.016, 0.017, 0.020);
 
 // Half size of all solids together.
 fn reach() -> vec3f {
