@@ -24,13 +24,16 @@ type Phases = SmallVec<[(Id, i32); 4]>;
 /// Σ of waves of sums of phases; the key is the wave and its phases.
 type Waves = BTreeMap<(bool, Vec<(Id, i32)>), f64>;
 
+/// Values of a polynomial and its derivatives.
+pub(super) type Values = SmallVec<[Id; 4]>;
+
 /// e^exponent times one wave.
 #[derive(Clone, Debug)]
-struct Wave {
-    scale: f64,
-    exponent: Option<Affine>,
+pub(super) struct Wave {
+    pub scale: f64,
+    pub exponent: Option<Affine>,
     /// sin, cos, sinh or cosh.
-    wave: Option<(Prim, Affine)>,
+    pub wave: Option<(Prim, Affine)>,
 }
 
 impl Integrator<'_> {
@@ -39,44 +42,38 @@ impl Integrator<'_> {
     /// One exponential: 2h e^(α + |βh|) φ(-2|βh|) with φ(x) = (eˣ - 1)/x. One wave: 2h sinc(δh) sin(γ). Products of waves
     /// become sums (NIST DLMF 4.21(ii), 4.35(ii)); where all phases together change by no more than 1 each, nodes
     /// of Gauss and Legendre take the integrand as it is, so that nothing cancels near a common zero. With a polynomial
-    /// repeated integration by parts from both ends (NIST DLMF 4.10(i), 4.26(ii)), and nodes where the exponent
-    /// changes by less than the degree and 2.
+    /// each of these is integrated by [`Self::polynomial_by_wave`].
     pub(super) fn exponential(&mut self, term: &Term) -> Result<(Id, Rule), Problem> {
         let parts = Parts::of(term);
         let degree = self.polynomial_degree(&parts.polynomials);
         if degree > MAX_DEGREE_BESIDE {
-            return Err(self.problem(
-                term.source,
-                Reason::Bound(
-                    "degrees of a polynomial beside an exponential",
-                    MAX_DEGREE_BESIDE as usize,
-                ),
-            ));
+            let bound = MAX_DEGREE_BESIDE as usize;
+            let reason = Reason::Bound("degrees of a polynomial beside an exponential", bound);
+            return Err(self.problem(term.source, reason));
         }
         let exponent = parts.exponent.map(|e| self.affine(e));
-        let waves = self.as_sum(&parts, exponent)?;
-        let is_growth = |w: &(Prim, Id)| matches!(w.0, Prim::Sinh | Prim::Cosh);
-        let may_cancel =
-            parts.waves.len() > 1 || exponent.is_some() && parts.waves.iter().any(is_growth);
-        if degree == 0 && !may_cancel {
-            let sum = self.sum_of(&waves);
-            let rule = match (exponent, parts.waves.first()) {
-                (Some(_), None) => Rule::Exponential,
-                (None, _) => Rule::Wave,
-                _ => Rule::DampedWave,
+        let waves = self.as_sum(&parts, exponent);
+        let (far, rule) = if degree > 0 {
+            let integral = self.polynomial_by_waves(&parts.polynomials, degree, &waves);
+            (integral, Rule::PolynomialByWave)
+        } else {
+            let rule = match (exponent, parts.waves.len()) {
+                (Some(_), 0) => Rule::Exponential,
+                (None, 1) => Rule::Wave,
+                (_, 1) => Rule::DampedWave,
+                _ => Rule::ProductOfWaves,
             };
-            return Ok((sum, rule));
+            (self.sum_of(&waves), rule)
+        };
+        let is_growth = |w: &(Prim, Id)| matches!(w.0, Prim::Sinh | Prim::Cosh);
+        let may_cancel = parts.waves.len() > 1 || exponent.is_some() && parts.waves.iter().any(is_growth);
+        if !may_cancel {
+            return Ok((far, rule));
         }
         let change = self.change(&parts, exponent);
-        let (limit, rule, far) = if degree == 0 {
-            let count = parts.waves.len() + usize::from(exponent.is_some());
-            #[allow(clippy::cast_precision_loss, reason = "a count of at most 17")]
-            let limit = count as f64;
-            (limit, Rule::ProductOfWaves, self.sum_of(&waves))
-        } else {
-            let far = self.by_parts(&parts.polynomials, degree, &waves)?;
-            (f64::from(degree) + 2.0, Rule::PolynomialByWave, far)
-        };
+        let count = parts.waves.len() + usize::from(exponent.is_some());
+        #[allow(clippy::cast_precision_loss, reason = "a count of at most 17")]
+        let limit = count as f64;
         let integrand = term.moving(self.g);
         let nodes = nodes_for_exponential(limit, degree as usize, NEAR);
         let near = self.gauss(integrand, nodes);
@@ -107,7 +104,7 @@ impl Integrator<'_> {
     }
 
     /// The waves as a sum of exponentials times at most one wave each.
-    fn as_sum(&mut self, parts: &Parts, exponent: Option<Affine>) -> Result<Vec<Wave>, Problem> {
+    pub(super) fn as_sum(&mut self, parts: &Parts, exponent: Option<Affine>) -> Vec<Wave> {
         let is_round = |p: &Prim| matches!(p, Prim::Sin | Prim::Cos);
         let (round, hyperbolic): (Vec<_>, Vec<_>) =
             parts.waves.iter().copied().partition(|w| is_round(&w.0));
@@ -158,7 +155,7 @@ impl Integrator<'_> {
                 }
             }
         }
-        Ok(out)
+        out
     }
 
     fn sum_of_affine(&mut self, a: Affine, b: Affine) -> Affine {
@@ -251,27 +248,30 @@ impl Integrator<'_> {
         mul(self.g, size, mixed)
     }
 
-    /// ∫ p e^λs = [e^λs (p - (p' - (p'' - …)/λ)/λ)/λ] at both ends.
-    fn by_parts(&mut self, polynomials: &[Id], degree: u32, waves: &[Wave]) -> Result<Id, Problem> {
+    /// ∫ p e^λs = [e^λs (p - (p' - (p'' - …)/λ)/λ)/λ] at both ends, for one wave; the derivatives of p at the ends
+    /// are given.
+    pub(super) fn by_parts(&mut self, ends: &[(f64, Values); 2], wave: &Wave) -> Id {
+        let mut sum = self.g.real(0.0);
+        for (side, values) in ends {
+            let part = self.end(wave, *side, values);
+            let part = scale(self.g, *side, part);
+            sum = add(self.g, sum, part);
+        }
+        sum
+    }
+
+    /// The derivatives of a product of polynomials at both ends.
+    pub(super) fn derivatives_at_ends(&mut self, polynomials: &[Id], degree: u32) -> [(f64, Values); 2] {
         let one = self.g.real(1.0);
         let mut derivatives = vec![polynomials.iter().fold(one, |p, &q| mul(self.g, p, q))];
         for _ in 0..degree {
             let last = derivatives[derivatives.len() - 1];
             derivatives.push(self.slope(last));
         }
-        let mut sum = self.g.real(0.0);
-        let ends = [1.0, -1.0].map(|side| {
+        [1.0, -1.0].map(|side| {
             let s = scale(self.g, side, self.path.half);
             (side, self.at(&derivatives, s))
-        });
-        for wave in waves {
-            for (side, values) in &ends {
-                let part = self.end(wave, *side, values);
-                let part = scale(self.g, side * wave.scale, part);
-                sum = add(self.g, sum, part);
-            }
-        }
-        Ok(sum)
+        })
     }
 
     /// The antiderivative of a polynomial, given by its derivatives at an end, times one wave.

@@ -8,6 +8,7 @@
 mod affine;
 mod algebraic;
 mod arithmetic;
+mod bessel;
 mod breaks;
 mod class;
 mod expand;
