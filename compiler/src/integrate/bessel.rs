@@ -1,6 +1,6 @@
-//! Polynomials beside one wave or one exponential, by Legendre coefficients and spherical Bessel functions.
+//! Polynomials beside waves and exponentials: Legendre coefficients with spherical Bessel functions, or by parts.
 
-use super::arithmetic::{add, call, if_less, mul, scale};
+use super::arithmetic::{add, call, if_less, mul, scale, sub};
 use super::Integrator;
 use super::exponential::{NEAR, Values, Wave};
 use super::legendre::{gauss_legendre, nodes_for_exponential};
@@ -29,11 +29,10 @@ impl Integrator<'_> {
         sum
     }
 
-    /// With p(h x) = Σ cₙ Pₙ(x): ∫ p e^(iδs) = 2h Σ cₙ iⁿ jₙ(δh), and with the modified functions of an exponential, where
-    /// that changes by less than the degree and 2; else by parts. Beside an exponential with a wave, nodes take the
-    /// place of Bessel functions.
+    /// With p(h x) = Σ cₙ Pₙ(x): ∫ p e^(iδs) = 2h Σ cₙ iⁿ jₙ(δh). Beside an exponential by parts, and nodes where the
+    /// exponent changes by less than the degree and 2.
     ///
-    /// NIST DLMF 10.54.2, 10.47.12.
+    /// NIST DLMF 10.54.2.
     fn polynomial_by_wave(
         &mut self,
         product: Id,
@@ -48,20 +47,23 @@ impl Integrator<'_> {
             // the mean of a polynomial is its first coefficient
             (None, None) => (coefficients[0], None),
             (Some(exponent), Some((prim, phase))) => {
-                let near = self.damped_by_nodes(product, degree, exponent, (prim, phase), limit);
+                let near = self.by_nodes(product, degree, &[(Prim::Exp, exponent), (prim, phase)], limit);
                 let sizes = [exponent, phase].map(|a| call(self.g, Prim::Abs, a.slope));
                 let size = self.g.add(sizes[0], sizes[1]);
                 let size = mul(self.g, half, size);
                 (near, Some(size))
             }
             (Some(phase), None) => {
-                let width = mul(self.g, phase.slope, half);
-                (self.sum_of_bessel(Prim::Exp, phase, width, coefficients), Some(width))
+                let near = self.by_nodes(product, degree, &[(Prim::Exp, phase)], limit);
+                (near, Some(mul(self.g, phase.slope, half)))
             }
             (None, Some((prim, phase))) => {
                 let width = mul(self.g, phase.slope, half);
-                let mean = self.sum_of_bessel(prim, phase, width, coefficients);
-                (mean, (!is_round(prim)).then_some(width))
+                if is_round(prim) {
+                    (self.sum_of_bessel(prim, phase, width, coefficients), None)
+                } else {
+                    (self.by_nodes(product, degree, &[(prim, phase)], limit), Some(width))
+                }
             }
         };
         let length = self.length_of_path();
@@ -77,15 +79,8 @@ impl Integrator<'_> {
         }
     }
 
-    /// The mean of a polynomial beside an exponential with a wave, both of which change by less than `limit`.
-    fn damped_by_nodes(
-        &mut self,
-        product: Id,
-        degree: u32,
-        exponent: Affine,
-        (prim, phase): (Prim, Affine),
-        limit: f64,
-    ) -> Id {
+    /// The mean of a polynomial beside exponentials and waves that change by less than `limit` together.
+    fn by_nodes(&mut self, product: Id, degree: u32, waves: &[(Prim, Affine)], limit: f64) -> Id {
         let leaves = self.path.coordinates.iter().map(|c| c.leaf);
         let body = Body::new(self.g, &[product], leaves);
         let mut sum = self.g.real(0.0);
@@ -95,7 +90,7 @@ impl Integrator<'_> {
                 let s = scale(self.g, side * node.place, self.path.half);
                 let values = self.path.point(self.g, s);
                 let mut value = body.at(self.g, &values)[0];
-                for (prim, a) in [(Prim::Exp, exponent), (prim, phase)] {
+                for &(prim, a) in waves {
                     let step = mul(self.g, s, a.slope);
                     let argument = add(self.g, a.mid, step);
                     let factor = call(self.g, prim, argument);
@@ -108,43 +103,25 @@ impl Integrator<'_> {
         sum
     }
 
-    /// The mean over the path: Σ cₙ times the Bessel function of this order, even and odd orders apart.
+    /// The mean over the path of a polynomial beside a sine or cosine: Σ cₙ iⁿ jₙ, even and odd orders apart.
     fn sum_of_bessel(&mut self, prim: Prim, phase: Affine, width: Id, coefficients: &[Id]) -> Id {
-        let is_round = is_round(prim);
         let mut sums = [self.g.real(0.0), self.g.real(0.0)];
         for (n, &c) in (0_u8..).zip(coefficients) {
-            let family = if is_round { Prim::SphericalJ(n) } else { Prim::SphericalIScaled(n) };
-            let value = call(self.g, family, width);
+            let value = call(self.g, Prim::SphericalJ(n), width);
             let part = mul(self.g, c, value);
-            let turned = is_round && n % 4 >= 2;
-            let part = scale(self.g, if turned { -1.0 } else { 1.0 }, part);
+            let part = scale(self.g, if n % 4 >= 2 { -1.0 } else { 1.0 }, part);
             let sum = &mut sums[usize::from(n % 2)];
             *sum = add(self.g, *sum, part);
         }
         let [even, odd] = sums;
-        let mid = phase.mid;
-        if prim == Prim::Exp {
-            let size = call(self.g, Prim::Abs, width);
-            let top = add(self.g, mid, size);
-            let (top, sum) = (call(self.g, Prim::Exp, top), add(self.g, even, odd));
-            return mul(self.g, top, sum);
+        let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, phase.mid));
+        if prim == Prim::Sin {
+            let (left, right) = (mul(self.g, even, sine), mul(self.g, odd, cosine));
+            add(self.g, left, right)
+        } else {
+            let (left, right) = (mul(self.g, even, cosine), mul(self.g, odd, sine));
+            sub(self.g, left, right)
         }
-        let (own, other) = match prim {
-            Prim::Sin => (Prim::Sin, Prim::Cos),
-            Prim::Cos => (Prim::Cos, Prim::Sin),
-            Prim::Sinh => (Prim::Sinh, Prim::Cosh),
-            _ => (Prim::Cosh, Prim::Sinh),
-        };
-        let (own, other) = (call(self.g, own, mid), call(self.g, other, mid));
-        let other = scale(self.g, if prim == Prim::Cos { -1.0 } else { 1.0 }, other);
-        let (left, right) = (mul(self.g, even, own), mul(self.g, odd, other));
-        let sum = add(self.g, left, right);
-        if is_round {
-            return sum;
-        }
-        let size = call(self.g, Prim::Abs, width);
-        let growth = call(self.g, Prim::Exp, size);
-        mul(self.g, growth, sum)
     }
 
     /// cₙ = (n + ½) Σ wⱼ Pₙ(xⱼ) p(h xⱼ), exact with one node more than the degree; sums of both sides of the middle for even

@@ -6,6 +6,7 @@ use smallvec::SmallVec;
 
 use super::arithmetic::{add, call, if_less, mul, scale, sub, total};
 use super::legendre::nodes_for_exponential;
+use super::path::Body;
 use super::quadratic::Affine;
 use super::rule::Rule;
 use super::term::{Factor, Term};
@@ -67,7 +68,8 @@ impl Integrator<'_> {
         };
         let is_growth = |w: &(Prim, Id)| matches!(w.0, Prim::Sinh | Prim::Cosh);
         let may_cancel = parts.waves.len() > 1 || exponent.is_some() && parts.waves.iter().any(is_growth);
-        if !may_cancel {
+        // beside other terms of one product that is taken as it is on short intervals
+        if !may_cancel || term.product.is_some() {
             return Ok((far, rule));
         }
         let change = self.change(&parts, exponent);
@@ -137,10 +139,7 @@ impl Integrator<'_> {
                     Some(growth) => {
                         let back = if *odd { -1.0 } else { 1.0 };
                         for (sign, factor) in [(1.0, 1.0), (-1.0, back)] {
-                            let turned = Affine {
-                                mid: scale(self.g, sign, growth.mid),
-                                slope: scale(self.g, sign, growth.slope),
-                            };
+                            let turned = self.multiple(sign, growth);
                             let exponent = Some(match exponent {
                                 None => turned,
                                 Some(e) => self.sum_of_affine(e, turned),
@@ -162,6 +161,15 @@ impl Integrator<'_> {
         Affine {
             mid: add(self.g, a.mid, b.mid),
             slope: add(self.g, a.slope, b.slope),
+            ends: [0, 1].map(|k| add(self.g, a.ends[k], b.ends[k])),
+        }
+    }
+
+    fn multiple(&mut self, v: f64, a: Affine) -> Affine {
+        Affine {
+            mid: scale(self.g, v, a.mid),
+            slope: scale(self.g, v, a.slope),
+            ends: a.ends.map(|end| scale(self.g, v, end)),
         }
     }
 
@@ -170,10 +178,7 @@ impl Integrator<'_> {
         let mut sum: Option<Affine> = None;
         for &(phase, n) in phases {
             let one = self.affine(phase);
-            let one = Affine {
-                mid: scale(self.g, f64::from(n), one.mid),
-                slope: scale(self.g, f64::from(n), one.slope),
-            };
+            let one = self.multiple(f64::from(n), one);
             sum = Some(match sum {
                 None => one,
                 Some(sum) => self.sum_of_affine(sum, one),
@@ -217,7 +222,7 @@ impl Integrator<'_> {
     pub(super) fn mean_of_exponential(&mut self, e: Affine) -> Id {
         let change = mul(self.g, e.slope, self.path.half);
         let size = call(self.g, Prim::Abs, change);
-        let top = add(self.g, e.mid, size);
+        let top = self.g.apply(Prim::Max, &e.ends);
         let (top, twice) = (call(self.g, Prim::Exp, top), scale(self.g, -2.0, size));
         let quotient = call(self.g, Prim::Exprel, twice);
         mul(self.g, top, quotient)
@@ -235,7 +240,7 @@ impl Integrator<'_> {
         let argument = self.g.apply(Prim::Complex, &twice);
         let quotient = call(self.g, Prim::Exprel, argument);
         let [re, im] = [Prim::Re, Prim::Im].map(|part| call(self.g, part, quotient));
-        let (top, turn) = (add(self.g, e.mid, w), add(self.g, phase.mid, v));
+        let (top, turn) = (self.g.apply(Prim::Max, &e.ends), add(self.g, phase.mid, v));
         let size = call(self.g, Prim::Exp, top);
         let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, turn));
         let mixed = if prim == Prim::Sin {
@@ -268,19 +273,17 @@ impl Integrator<'_> {
             let last = derivatives[derivatives.len() - 1];
             derivatives.push(self.slope(last));
         }
-        [1.0, -1.0].map(|side| {
-            let s = scale(self.g, side, self.path.half);
-            (side, self.at(&derivatives, s))
+        let leaves = self.path.coordinates.iter().map(|c| c.leaf);
+        let body = Body::new(self.g, &derivatives, leaves);
+        [(1.0, 1), (-1.0, 0)].map(|(side, which)| {
+            let values = self.path.end(self.g, which);
+            (side, body.at(self.g, &values))
         })
     }
 
     /// The antiderivative of a polynomial, given by its derivatives at an end, times one wave.
     fn end(&mut self, of: &Wave, side: f64, values: &[Id]) -> Id {
-        let at_end = |this: &mut Self, a: Affine| {
-            let step = mul(this.g, a.slope, this.path.half);
-            let step = scale(this.g, side, step);
-            add(this.g, a.mid, step)
-        };
+        let at_end = |_: &mut Self, a: Affine| a.ends[usize::from(side > 0.0)];
         let exponent = of.exponent.map(|e| (at_end(self, e), e.slope));
         let wave = of
             .wave
