@@ -86,7 +86,10 @@ const DOUBLE: f64 = 1e-10;
 const ROUNDINGS: f64 = 8.0;
 
 fn points(rays: impl Iterator<Item = Vec<f64>>) -> Vec<Point> {
-    let point = |args| Point { args, params: VALUES.to_vec() };
+    let point = |args| Point {
+        args,
+        params: VALUES.to_vec(),
+    };
     rays.map(point).collect()
 }
 
@@ -101,10 +104,16 @@ fn sensitivity(integral: &Formula, rays: &[Ray]) -> Vec<f64> {
             args
         })
     };
-    let base = Machine::Reference.run(integral, What::Value, &points(rays.iter().map(|r| r.args.clone())));
+    let base = Machine::Reference.run(
+        integral,
+        What::Value,
+        &points(rays.iter().map(|r| r.args.clone())),
+    );
     let near = Machine::Reference.run(integral, What::Value, &points(rays.iter().flat_map(moved)));
     let (base, near) = (base.unwrap(), near.unwrap());
-    let change = |(value, near): (&Vec<f64>, &[Vec<f64>])| near.iter().map(|n| (n[0] - value[0]).abs()).sum();
+    let change = |(value, near): (&Vec<f64>, &[Vec<f64>])| {
+        near.iter().map(|n| (n[0] - value[0]).abs()).sum()
+    };
     base.iter().zip(near.chunks(8)).map(change).collect()
 }
 
@@ -118,20 +127,38 @@ fn size_of_terms(of: &Formula, made: &FieldIntegral, rays: &[Ray]) -> Vec<f64> {
         let t = ray.args[6] + (ray.args[7] - ray.args[6]) * (k as f64 + 0.5) / PIECES as f64;
         (0..3).map(|c| ray.args[c] + t * ray.args[3 + c]).collect()
     };
-    let places = || rays.iter().flat_map(|ray| (0..PIECES).map(move |k| place(ray, k)));
+    let places = || {
+        rays.iter()
+            .flat_map(|ray| (0..PIECES).map(move |k| place(ray, k)))
+    };
     for part in &made.integral.parts {
         let mut graph = Graph::new();
-        let value = transcribe(&made.graph, &[part.integrand], &mut graph, |to, node, args| match node.op {
-            Op::Apply(prim) => to.apply(prim, args),
-            op => match variable(op) {
-                Some(k) => Formula::leaf(to, k, Ty::Real),
-                None => to.leaf(op, node.ty),
+        let value = transcribe(
+            &made.graph,
+            &[part.integrand],
+            &mut graph,
+            |to, node, args| match node.op {
+                Op::Apply(prim) => to.apply(prim, args),
+                op => match variable(op) {
+                    Some(k) => Formula::leaf(to, k, Ty::Real),
+                    None => to.leaf(op, node.ty),
+                },
             },
-        });
-        let one = Formula { graph, value: value.into(), ..of.clone() };
-        let Ok(values) = Machine::Reference.run(&one, What::Value, &points(places())) else { continue };
+        );
+        let one = Formula {
+            graph,
+            value: value.into(),
+            ..of.clone()
+        };
+        let Ok(values) = Machine::Reference.run(&one, What::Value, &points(places())) else {
+            continue;
+        };
         for ((total, values), ray) in total.iter_mut().zip(values.chunks(PIECES)).zip(rays) {
-            let sum: f64 = values.iter().map(|v| v[0].abs()).filter(|v| v.is_finite()).sum();
+            let sum: f64 = values
+                .iter()
+                .map(|v| v[0].abs())
+                .filter(|v| v.is_finite())
+                .sum();
             *total += sum * (ray.args[7] - ray.args[6]).abs() / PIECES as f64;
         }
     }
@@ -140,9 +167,21 @@ fn size_of_terms(of: &Formula, made: &FieldIntegral, rays: &[Ray]) -> Vec<f64> {
 
 /// |∂I/∂b - f(o + b d)| as a part of the greater of both and the mean of |f|, by our exact derivative of the closed form.
 fn slope_error(of: &Formula, integral: &Formula, rays: &[Ray]) -> f64 {
-    let slopes = Machine::Reference.run(integral, What::Gradient, &points(rays.iter().map(|r| r.args.clone()))).unwrap();
-    let end = |ray: &Ray| (0..3).map(|k| ray.args[k] + ray.args[7] * ray.args[3 + k]).collect();
-    let values = Machine::Reference.run(of, What::Value, &points(rays.iter().map(end))).unwrap();
+    let slopes = Machine::Reference
+        .run(
+            integral,
+            What::Gradient,
+            &points(rays.iter().map(|r| r.args.clone())),
+        )
+        .unwrap();
+    let end = |ray: &Ray| {
+        (0..3)
+            .map(|k| ray.args[k] + ray.args[7] * ray.args[3 + k])
+            .collect()
+    };
+    let values = Machine::Reference
+        .run(of, What::Value, &points(rays.iter().map(end)))
+        .unwrap();
     let mut worst: f64 = 0.0;
     for ((ray, slope), value) in rays.iter().zip(&slopes).zip(&values) {
         let length = (ray.args[7] - ray.args[6]).abs();
@@ -158,10 +197,16 @@ fn slope_error(of: &Formula, integral: &Formula, rays: &[Ray]) -> f64 {
 
 fn measure(density: &Density) -> Measured {
     let of = formula(&density.text);
-    let made = field_integral(&of, Otherwise::Quadrature).unwrap_or_else(|e| panic!("{}: {e:?}", density.text));
+    let made = field_integral(&of, Otherwise::Quadrature)
+        .unwrap_or_else(|e| panic!("{}: {e:?}", density.text));
     let mut out = Measured {
         text: density.text.clone(),
-        rules: made.integral.parts.iter().map(|p| p.rule.record().name).collect(),
+        rules: made
+            .integral
+            .parts
+            .iter()
+            .map(|p| p.rule.record().name)
+            .collect(),
         numerical: made.integral.numerical.len(),
         worst: [0.0; 2],
         beyond: 0.0,
@@ -175,16 +220,31 @@ fn measure(density: &Density) -> Measured {
     let integral = made.into_formula(&of);
     out.slope = slope_error(&of, &integral, &density.rays);
     let moved = sensitivity(&integral, &density.rays);
-    let allowed: Vec<f64> = moved.iter().zip(&terms).map(|(m, t)| ROUNDINGS * m + ROUNDINGS * 6e-8 * t).collect();
+    let allowed: Vec<f64> = moved
+        .iter()
+        .zip(&terms)
+        .map(|(m, t)| ROUNDINGS * m + ROUNDINGS * 6e-8 * t)
+        .collect();
     let at = points(density.rays.iter().map(|r| r.args.clone()));
-    let machines = [Machine::Reference, Machine::Processor(Arithmetic::Ieee32, Precision::Accurate)];
+    let machines = [
+        Machine::Reference,
+        Machine::Processor(Arithmetic::Ieee32, Precision::Accurate),
+    ];
     for (k, machine) in machines.iter().enumerate() {
-        let values = machine.run(&integral, What::Value, &at).unwrap_or_else(|e| panic!("{}: {e}", density.text));
+        let values = machine
+            .run(&integral, What::Value, &at)
+            .unwrap_or_else(|e| panic!("{}: {e}", density.text));
         for ((ray, value), allowed) in density.rays.iter().zip(&values).zip(&allowed) {
             let error = (value[0] - ray.exact).abs();
             let error = if error.is_nan() { f64::INFINITY } else { error };
             // what is below the least normal number of the format is 0
-            let part = |error: f64| if error < 1e-37 { 0.0 } else { error / ray.size.max(1e-37) };
+            let part = |error: f64| {
+                if error < 1e-37 {
+                    0.0
+                } else {
+                    error / ray.size.max(1e-37)
+                }
+            };
             out.worst[k] = out.worst[k].max(part(error));
             let beyond = if k == 1 {
                 out.errors.push(part(error));
@@ -198,7 +258,13 @@ fn measure(density: &Density) -> Measured {
                 let _ = writeln!(
                     out.complaints,
                     "    {} {:?}: {:e}, not {:e}: {:.1e} of {:e}, roundings {:.1e}",
-                    ["f64", "f32"][k], ray.args, value[0], ray.exact, part(error), ray.size, part(*allowed)
+                    ["f64", "f32"][k],
+                    ray.args,
+                    value[0],
+                    ray.exact,
+                    part(error),
+                    ray.size,
+                    part(*allowed)
                 );
             }
             if ray.args[6] == ray.args[7] && value[0] != 0.0 {
@@ -221,14 +287,22 @@ fn survey(class: &str) -> Vec<Measured> {
             found.worst[1],
             found.beyond,
             found.slope,
-            if found.numerical > 0 { "NUMERICAL " } else { "" },
+            if found.numerical > 0 {
+                "NUMERICAL "
+            } else {
+                ""
+            },
             found.rules
         );
         print!("{}", found.complaints);
     }
     let errors: Vec<f64> = out.iter().flat_map(|f| f.errors.iter().copied()).collect();
     let good = errors.iter().filter(|&&e| e <= SINGLE).count();
-    println!("  {} densities, {} rays, {good} within 1e-6 of ∫ |f| in binary32", out.len(), errors.len());
+    println!(
+        "  {} densities, {} rays, {good} within 1e-6 of ∫ |f| in binary32",
+        out.len(),
+        errors.len()
+    );
     out
 }
 
@@ -236,8 +310,18 @@ fn survey(class: &str) -> Vec<Measured> {
 fn check(class: &str) {
     for found in survey(class) {
         assert_eq!(found.numerical, 0, "{}: {:?}", found.text, found.rules);
-        assert!(found.complaints.is_empty(), "{}\n{}", found.text, found.complaints);
-        assert!(found.slope < 1e-7, "{}: dI/db is off by {:e}", found.text, found.slope);
+        assert!(
+            found.complaints.is_empty(),
+            "{}\n{}",
+            found.text,
+            found.complaints
+        );
+        assert!(
+            found.slope < 1e-7,
+            "{}: dI/db is off by {:e}",
+            found.text,
+            found.slope
+        );
     }
 }
 

@@ -327,7 +327,10 @@ impl Integrator<'_> {
         let x = self.affine(of);
         let w = mul(self.g, x.slope, self.path.half);
         let w = call(self.g, Prim::Abs, w);
-        let (low, high) = (self.g.apply(Prim::Min, &x.ends), self.g.apply(Prim::Max, &x.ends));
+        let (low, high) = (
+            self.g.apply(Prim::Min, &x.ends),
+            self.g.apply(Prim::Max, &x.ends),
+        );
         let [from, to] = [low, high].map(|end| call(self.g, Prim::Log1pExp, end));
         let width = scale(self.g, 2.0, w);
         let difference = self.g.sub(to, from);

@@ -411,17 +411,26 @@ impl Integrator<'_> {
         let (middle, reach) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, difference));
         let root = call(self.g, Prim::Sqrt, bowl.q.discriminant);
         let one = self.g.real(1.0);
-        let product = polynomials.iter().fold(one, |product, &p| mul(self.g, product, p));
+        let product = polynomials
+            .iter()
+            .fold(one, |product, &p| mul(self.g, product, p));
         let exponent = i32::try_from(k).unwrap_or(0);
         let count = nodes_for_exponential(std::f64::consts::FRAC_PI_2 * f64::from(k), 0, NEAR);
         let mut sum = self.g.real(0.0);
         for node in super::gauss_legendre(count) {
-            let sides: &[f64] = if node.place == 0.0 { &[1.0] } else { &[1.0, -1.0] };
+            let sides: &[f64] = if node.place == 0.0 {
+                &[1.0]
+            } else {
+                &[1.0, -1.0]
+            };
             for &side in sides {
                 let offset = scale(self.g, side * node.place, reach);
                 let u = add(self.g, middle, offset);
                 let turn = mul(self.g, root, u);
-                let (sine, cosine) = (call(self.g, Prim::Sinc, turn), call(self.g, Prim::Cos, turn));
+                let (sine, cosine) = (
+                    call(self.g, Prim::Sinc, turn),
+                    call(self.g, Prim::Cos, turn),
+                );
                 let step = mul(self.g, u, sine);
                 let down = mul(self.g, least.slope, step);
                 let base = sub(self.g, cosine, down);
@@ -469,7 +478,14 @@ impl Integrator<'_> {
             let around = mul(self.g, s, quotient);
             choose(self, around, beside[k])
         });
-        (Least { place, value, slope }, angles)
+        (
+            Least {
+                place,
+                value,
+                slope,
+            },
+            angles,
+        )
     }
 }
 

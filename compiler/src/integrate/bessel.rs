@@ -1,7 +1,7 @@
 //! Polynomials beside waves and exponentials: Legendre coefficients with spherical Bessel functions, or by parts.
 
-use super::arithmetic::{add, call, if_less, mul, scale, sub};
 use super::Integrator;
+use super::arithmetic::{add, call, if_less, mul, scale, sub};
 use super::exponential::{NEAR, Values, Wave};
 use super::legendre::{gauss_legendre, nodes_for_exponential};
 use super::path::Body;
@@ -10,7 +10,12 @@ use crate::ir::{Id, Prim};
 
 impl Integrator<'_> {
     /// Σ of the integrals of a polynomial beside each wave.
-    pub(super) fn polynomial_by_waves(&mut self, polynomials: &[Id], degree: u32, waves: &[Wave]) -> Id {
+    pub(super) fn polynomial_by_waves(
+        &mut self,
+        polynomials: &[Id],
+        degree: u32,
+        waves: &[Wave],
+    ) -> Id {
         let one = self.g.real(1.0);
         let product = polynomials.iter().fold(one, |p, &q| mul(self.g, p, q));
         let coefficients = self.legendre_coefficients(product, degree);
@@ -22,7 +27,8 @@ impl Integrator<'_> {
         };
         let mut sum = self.g.real(0.0);
         for wave in waves {
-            let value = self.polynomial_by_wave(product, degree, &coefficients, ends.as_ref(), wave);
+            let value =
+                self.polynomial_by_wave(product, degree, &coefficients, ends.as_ref(), wave);
             let value = scale(self.g, wave.scale, value);
             sum = add(self.g, sum, value);
         }
@@ -47,7 +53,12 @@ impl Integrator<'_> {
             // the mean of a polynomial is its first coefficient
             (None, None) => (coefficients[0], None),
             (Some(exponent), Some((prim, phase))) => {
-                let near = self.by_nodes(product, degree, &[(Prim::Exp, exponent), (prim, phase)], limit);
+                let near = self.by_nodes(
+                    product,
+                    degree,
+                    &[(Prim::Exp, exponent), (prim, phase)],
+                    limit,
+                );
                 let sizes = [exponent, phase].map(|a| call(self.g, Prim::Abs, a.slope));
                 let size = self.g.add(sizes[0], sizes[1]);
                 let size = mul(self.g, half, size);
@@ -62,7 +73,10 @@ impl Integrator<'_> {
                 if is_round(prim) {
                     (self.sum_of_bessel(prim, phase, width, coefficients), None)
                 } else {
-                    (self.by_nodes(product, degree, &[(prim, phase)], limit), Some(width))
+                    (
+                        self.by_nodes(product, degree, &[(prim, phase)], limit),
+                        Some(width),
+                    )
                 }
             }
         };
@@ -85,7 +99,11 @@ impl Integrator<'_> {
         let body = Body::new(self.g, &[product], leaves);
         let mut sum = self.g.real(0.0);
         for node in gauss_legendre(nodes_for_exponential(limit, degree as usize, NEAR)) {
-            let sides: &[f64] = if node.place == 0.0 { &[1.0] } else { &[1.0, -1.0] };
+            let sides: &[f64] = if node.place == 0.0 {
+                &[1.0]
+            } else {
+                &[1.0, -1.0]
+            };
             for &side in sides {
                 let s = scale(self.g, side * node.place, self.path.half);
                 let values = self.path.point(self.g, s);
@@ -150,7 +168,8 @@ impl Integrator<'_> {
                 let weight = (order + 0.5) * node.weight * legendre;
                 let part = scale(self.g, weight, if n % 2 == 0 { even } else { odd });
                 *c = add(self.g, *c, part);
-                let next = ((2.0 * order + 1.0) * node.place * legendre - order * last) / (order + 1.0);
+                let next =
+                    ((2.0 * order + 1.0) * node.place * legendre - order * last) / (order + 1.0);
                 (last, legendre) = (legendre, next);
             }
         }

@@ -48,7 +48,9 @@ impl<'g> Integrator<'g> {
         // t at the zeros, so that they are exact to the distance from the origin
         let whole = self.path.clone();
         self.path = whole.from_origin(self.g);
-        let found = zeros.into_iter().try_for_each(|zero| self.zeros(zero, &mut cuts));
+        let found = zeros
+            .into_iter()
+            .try_for_each(|zero| self.zeros(zero, &mut cuts));
         self.path = whole;
         found?;
         cuts.dedup();
@@ -315,7 +317,9 @@ impl<'g> Integrator<'g> {
             (node.op == Op::Apply(Prim::Select)).then(|| node.args.clone())
         };
         let place = match prim {
-            Prim::Neg | Prim::Add | Prim::Sub | Prim::Mul | Prim::Select => return self.g.apply(prim, args),
+            Prim::Neg | Prim::Add | Prim::Sub | Prim::Mul | Prim::Select => {
+                return self.g.apply(prim, args);
+            }
             Prim::PowInt(n) if n > 0 => return self.g.apply(prim, args),
             Prim::Div => 1,
             _ => 0,
@@ -328,7 +332,11 @@ impl<'g> Integrator<'g> {
             let mut args: SmallVec<[Id; 3]> = SmallVec::from_slice(args);
             args[place] = side;
             let is_choice = of_choice(self, side).is_some_and(|c| of_choice(self, c[1]).is_none());
-            if is_choice { self.distributed(prim, &args) } else { self.g.apply(prim, &args) }
+            if is_choice {
+                self.distributed(prim, &args)
+            } else {
+                self.g.apply(prim, &args)
+            }
         });
         self.g.apply(Prim::Select, &[choice[0], sides[0], sides[1]])
     }

@@ -13,6 +13,8 @@ use super::term::{Factor, Term};
 use super::{Integrator, Problem, Reason};
 use crate::ir::{Id, Prim};
 
+/// Greatest number of waves that a product becomes the sum of.
+pub const MAX_WAVES: usize = 512;
 /// Greatest degree of a polynomial beside an exponential or a wave.
 pub const MAX_DEGREE_BESIDE: u32 = 16;
 
@@ -53,7 +55,9 @@ impl Integrator<'_> {
             return Err(self.problem(term.source, reason));
         }
         let exponent = parts.exponent.map(|e| self.affine(e));
-        let waves = self.as_sum(&parts, exponent);
+        let Some(waves) = self.as_sum(&parts, exponent) else {
+            return Err(self.problem(term.source, Reason::Bound("waves", MAX_WAVES)));
+        };
         let (far, rule) = if degree > 0 {
             let integral = self.polynomial_by_waves(&parts.polynomials, degree, &waves);
             (integral, Rule::PolynomialByWave)
@@ -67,7 +71,8 @@ impl Integrator<'_> {
             (self.sum_of(&waves), rule)
         };
         let is_growth = |w: &(Prim, Id)| matches!(w.0, Prim::Sinh | Prim::Cosh);
-        let may_cancel = parts.waves.len() > 1 || exponent.is_some() && parts.waves.iter().any(is_growth);
+        let may_cancel =
+            parts.waves.len() > 1 || exponent.is_some() && parts.waves.iter().any(is_growth);
         // beside other terms of one product that is taken as it is on short intervals
         if !may_cancel || term.product.is_some() {
             return Ok((far, rule));
@@ -106,12 +111,15 @@ impl Integrator<'_> {
     }
 
     /// The waves as a sum of exponentials times at most one wave each.
-    pub(super) fn as_sum(&mut self, parts: &Parts, exponent: Option<Affine>) -> Vec<Wave> {
+    pub(super) fn as_sum(&mut self, parts: &Parts, exponent: Option<Affine>) -> Option<Vec<Wave>> {
         let is_round = |p: &Prim| matches!(p, Prim::Sin | Prim::Cos);
         let (round, hyperbolic): (Vec<_>, Vec<_>) =
             parts.waves.iter().copied().partition(|w| is_round(&w.0));
-        let round_sum = product_to_sum(&round, true);
-        let hyperbolic_sum = product_to_sum(&hyperbolic, false);
+        let round_sum = product_to_sum(&round, true)?;
+        let hyperbolic_sum = product_to_sum(&hyperbolic, false)?;
+        if round_sum.len() * hyperbolic_sum.len() > MAX_WAVES {
+            return None;
+        }
         let mut out = Vec::new();
         for ((sine, phases), v) in &round_sum {
             let wave = self.combined(phases);
@@ -154,7 +162,7 @@ impl Integrator<'_> {
                 }
             }
         }
-        out
+        Some(out)
     }
 
     fn sum_of_affine(&mut self, a: Affine, b: Affine) -> Affine {
@@ -266,7 +274,11 @@ impl Integrator<'_> {
     }
 
     /// The derivatives of a product of polynomials at both ends.
-    pub(super) fn derivatives_at_ends(&mut self, polynomials: &[Id], degree: u32) -> [(f64, Values); 2] {
+    pub(super) fn derivatives_at_ends(
+        &mut self,
+        polynomials: &[Id],
+        degree: u32,
+    ) -> [(f64, Values); 2] {
         let one = self.g.real(1.0);
         let mut derivatives = vec![polynomials.iter().fold(one, |p, &q| mul(self.g, p, q))];
         for _ in 0..degree {
@@ -403,8 +415,8 @@ impl Parts {
 }
 
 /// cos A cos u = (cos(A + u) + cos(A - u))/2 and its kin: a product of waves as a sum of waves of sums. `round`: sin and
-/// cos, else sinh and cosh. The empty product is cos 0.
-fn product_to_sum(waves: &[(Prim, Id)], round: bool) -> Waves {
+/// cos, else sinh and cosh. The empty product is cos 0. `None` of more than [`MAX_WAVES`].
+fn product_to_sum(waves: &[(Prim, Id)], round: bool) -> Option<Waves> {
     let mut sum: Waves = BTreeMap::new();
     sum.insert((false, Vec::new()), 1.0);
     for &(prim, phase) in waves {
@@ -426,9 +438,12 @@ fn product_to_sum(waves: &[(Prim, Id)], round: bool) -> Waves {
             }
         }
         next.retain(|_, v| *v != 0.0);
+        if next.len() > MAX_WAVES {
+            return None;
+        }
         sum = next;
     }
-    sum
+    Some(sum)
 }
 
 /// Adds n times a phase; the first multiple is made positive, and whether that turned the whole is told.

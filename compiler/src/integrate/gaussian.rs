@@ -135,7 +135,13 @@ impl Integrator<'_> {
     /// Both sides of the centre by repeated integration by parts from their ends,
     /// ∫ₓ^∞ p e^(-u²) du = Σ p⁽ⁿ⁾(x) (√π/2) iⁿerfc x (NIST DLMF 7.18), and nodes of the integrand where the exponent changes
     /// by less than the degree and 2.
-    fn moments_of_gaussian(&mut self, q: &Quadratic, polynomials: &[Id], degree: u32, integrand: Id) -> Id {
+    fn moments_of_gaussian(
+        &mut self,
+        q: &Quadratic,
+        polynomials: &[Id],
+        degree: u32,
+        integrand: Id,
+    ) -> Id {
         let half = call(self.g, Prim::Abs, self.path.half);
         let (_, rate, places) = self.in_widths(q, LEAST_WIDTH_BESIDE);
         let foot = self.g.div(q.b, q.a);
@@ -157,7 +163,9 @@ impl Integrator<'_> {
                 let is_beyond = self.g.apply(Prim::Less, &[zero, distance]);
                 let x = self.g.apply(Prim::Max, &[distance, zero]);
                 let s = self.g.apply(Prim::Select, &[is_beyond, s, foot]);
-                let exponent = self.g.apply(Prim::Select, &[is_beyond, q.ends[which], depth]);
+                let exponent = self
+                    .g
+                    .apply(Prim::Select, &[is_beyond, q.ends[which], depth]);
                 let values = self.at(&derivatives, s);
                 let tail = self.tail(&values, x, rate, side);
                 let fall = self.g.neg(exponent);
@@ -170,7 +178,10 @@ impl Integrator<'_> {
         }
         let far = self.g.div(sum, rate);
         let limit = f64::from(degree) + 2.0;
-        let near = self.gauss(integrand, nodes_for_exponential(limit, degree as usize, NEAR) + 2);
+        let near = self.gauss(
+            integrand,
+            nodes_for_exponential(limit, degree as usize, NEAR) + 2,
+        );
         let limit = self.g.real(limit);
         let change = self.change_of_exponent(q, half);
         if_less(self.g, limit, change, far, near)

@@ -5,12 +5,12 @@
 
 use rustc_hash::FxHashMap;
 
+use super::Integrator;
 use super::algebraic::NEAR_NODES;
 use super::arithmetic::{add, call, mul, scale, square};
 use super::exponential::NEAR;
 use super::legendre::nodes_for_exponential;
 use super::term::{Factor, Term};
-use super::Integrator;
 use crate::ir::{Id, Prim};
 
 /// What the exponents and phases of a product may change by together where it is taken as it is.
@@ -43,7 +43,11 @@ impl Integrator<'_> {
             for (_, value) in &terms {
                 far = add(self.g, far, *value);
             }
-            let value = if all_closed && terms.len() > 1 { self.as_written(product, &terms, far) } else { far };
+            let value = if all_closed && terms.len() > 1 {
+                self.as_written(product, &terms, far)
+            } else {
+                far
+            };
             sum = add(self.g, sum, value);
         }
         sum
@@ -80,9 +84,13 @@ impl Integrator<'_> {
                 match *factor {
                     Factor::Polynomial(p) => polynomial += self.degree(p)?,
                     Factor::Wave(_, phase) => *own.entry((false, phase)).or_default() += 1,
-                    Factor::Function(_, x) | Factor::Logistic(x) => *own.entry((true, x)).or_default() += 1,
+                    Factor::Function(_, x) | Factor::Logistic(x) => {
+                        *own.entry((true, x)).or_default() += 1
+                    }
                     Factor::Exponential(e) if !exponents.contains(&e) => exponents.push(e),
-                    Factor::Power(base, _) | Factor::Log(base) if !bases.contains(&base) => bases.push(base),
+                    Factor::Power(base, _) | Factor::Log(base) if !bases.contains(&base) => {
+                        bases.push(base)
+                    }
                     Factor::Series(_) | Factor::Other(_) => return None,
                     _ => {}
                 }

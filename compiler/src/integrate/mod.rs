@@ -31,7 +31,7 @@ pub use breaks::MAX_BREAKS;
 pub use class::MAX_DEGREE;
 pub use expand::{MAX_FACTORS, MAX_TERMS};
 pub use explain::{Explanation, Told, explain};
-pub use exponential::MAX_DEGREE_BESIDE;
+pub use exponential::{MAX_DEGREE_BESIDE, MAX_WAVES};
 pub use field::{FieldIntegral, INPUTS, field_integral};
 pub use gaussian::MAX_DEGREE_BESIDE_GAUSSIAN;
 pub use legendre::{Node as QuadratureNode, gauss_legendre};
@@ -44,8 +44,8 @@ use smallvec::SmallVec;
 
 use arithmetic::{add, mul, scale};
 use class::Classes;
-use group::Groups;
 use exponential::Parts;
+use group::Groups;
 use path::Body;
 use term::{Factor, Term};
 

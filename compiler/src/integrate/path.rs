@@ -41,7 +41,13 @@ impl Path {
     }
 
     /// The ray origin + t direction of space from t = a to t = b.
-    pub fn of_ray(g: &mut Graph, leaves: &[Id], origin: &[Id], direction: &[Id], ends: (Id, Id)) -> Self {
+    pub fn of_ray(
+        g: &mut Graph,
+        leaves: &[Id],
+        origin: &[Id],
+        direction: &[Id],
+        ends: (Id, Id),
+    ) -> Self {
         let lines: Vec<(Id, Id, Id)> = leaves
             .iter()
             .zip(origin)
@@ -72,7 +78,11 @@ impl Path {
 
     /// The part of the line between two other ends.
     pub fn between(&self, g: &mut Graph, ends: [Id; 2]) -> Self {
-        let lines: Vec<(Id, Id, Id)> = self.coordinates.iter().map(|c| (c.leaf, c.origin, c.slope)).collect();
+        let lines: Vec<(Id, Id, Id)> = self
+            .coordinates
+            .iter()
+            .map(|c| (c.leaf, c.origin, c.slope))
+            .collect();
         Self::of_lines(g, &lines, ends)
     }
 

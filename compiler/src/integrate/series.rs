@@ -44,7 +44,10 @@ impl Integrator<'_> {
 
     /// A sum of a few terms written out.
     fn unrolled(&mut self, it: &Loop, state: State, term: Id) -> Option<Id> {
-        let count = self.g.as_real(it.count).filter(|&n| (0.0..=MAX_UNROLLED).contains(&n))?;
+        let count = self
+            .g
+            .as_real(it.count)
+            .filter(|&n| (0.0..=MAX_UNROLLED).contains(&n))?;
         let counter = self.g.counter(it.binder);
         let body = Body::new(self.g, &[term], std::iter::once(counter));
         let mut sum = state.init;
