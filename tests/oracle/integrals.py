@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Write tests/data/functions/integral_{edges,complex,wide,families}.tsv: the building blocks of ray integrals.
+"""Write tests/data/functions/integral_{edges,complex,wide,families,second}.tsv: the building blocks of ray integrals.
 
 usage: integrals.py [OUT_DIR]      (needs mpmath; default OUT_DIR: ../data/functions beside this file)
 
-The first three have the formats of real_edges.tsv, complex_edges.tsv and wide.tsv, for what has a name in the language. In the last,
+The first three have the formats of real_edges.tsv, complex_edges.tsv and wide.tsv, for what has a name in the language. In `families`,
 `family order arguments value derivative`, are all members of the families. Everything by definition, with 60 digits and more:
 integrals by their closed forms or by mpmath's quadrature, derivatives by those of the integrand.
 """
@@ -365,9 +365,77 @@ def family_rows():
                 below = spherical_i(n - 1, x_) if n else 0
                 slope = (n * below + (n + 1) * spherical_i(n + 1, x_)) / (2 * n + 1) - mp.sign(x_) * spherical_i(n, x_)
             yield "spherical_i_scaled", n, [x], spherical_i(n, x_), slope
-    for x in [0.0, 1e-20, 0.1, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 8.5, 9.0, 9.3, 10.0, 1e10, -2.0, -5.0]:
+    for x in [0.0, 1e-20, 0.1, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 8.5, 9.0, 9.3, 1e10, -2.0, -5.0]:
         x = f32(x)
         yield "gauss", 0, [x], bell(mp.mpf(x)), -2 * mp.mpf(x) * bell(mp.mpf(x))
+
+
+def mass_seconds(c, w):
+    c, w = mp.mpf(c), mp.mpf(w)
+    far, near = mp.exp(-(c + w) ** 2), mp.exp(-(c - w) ** 2)
+    return -2 * (c + w) * far + 2 * (c - w) * near, -2 * (c + w) * far - 2 * (c - w) * near, -2 * (c + w) * far + 2 * (c - w) * near
+
+
+def scaled_mass_seconds(c, w):
+    c, w = mp.mpf(c), mp.mpf(w)
+    seconds = mass_seconds(c, w)
+    m = abs(c) - abs(w)
+    if m <= 0:
+        return seconds
+    along = (mp.sign(c), -mp.sign(w))
+    value, slopes = mass(c, w), mass_slopes(c, w)
+    out = []
+    for second, (i, j) in zip(seconds, ((0, 0), (0, 1), (1, 1))):
+        out.append(mp.exp(m * m) * (second + 2 * m * (along[i] * slopes[j] + along[j] * slopes[i]) + (2 + 4 * m * m) * along[i] * along[j] * value))
+    return tuple(out)
+
+
+def angle_seconds(p, x):
+    p, x = mp.mpf(p), mp.mpf(x)
+    s = x * x + p
+    by_p = 2 / (5 * x**5) if p == 0 else (atan2_quotient(p, x) - x / s) / (2 * p * p) - (atan2_quotient_slopes(p, x)[0] + x / s**2) / (2 * p)
+    return by_p, 1 / s**2, 2 * x / s**2
+
+
+SECONDS = {
+    "atanq": lambda x: 2 * mp.hyp2f1(3, mp.mpf(5) / 2, mp.mpf(7) / 2, -x) / 5,
+    "log1prel": lambda x: 2 * log1prel(2, x),
+    "log1pexp": lambda x: sigmoid(x) * sigmoid(-x),
+    "erf": lambda x: -2 * x * ROOT * bell(x),
+    "erfc": lambda x: 2 * x * ROOT * bell(x),
+    "erfcx": lambda x: 8 * repeated(2, x),
+}
+SECONDS_OF_PAIRS = {"atan2q": angle_seconds, "gaussmass": mass_seconds, "gaussmassx": scaled_mass_seconds}
+
+
+def second_rows():
+    rng = random.Random(13)
+    mp.mp.dps = 300
+    sizes = [0.0, 1e-30, 1e-10, 1e-4, 0.01, 0.1, 0.3, 0.5, 0.6, 0.9, 1.0, 1.9, 2.1, 3.0, 3.1, 5.0, 8.0]
+    for name, second in SECONDS.items():
+        xs = [s * x for x in sizes for s in (1, -1)] + [rng.uniform(-5, 8) for _ in range(30)] + [-1 + 2.0 ** rng.uniform(-10, 0) for _ in range(10)]
+        for x in dict.fromkeys(map(f32, xs)):
+            if REAL[name][2](x):
+                yield name, "real", [x], [second(mp.mpf(x))]
+    for name, second in SECONDS_OF_PAIRS.items():
+        for k in range(120):
+            if name == "atan2q":
+                x = f32(rng.choice((1, -1)) * 2.0 ** rng.uniform(-4, 4))
+                z = rng.choice((0.0, 2.0 ** rng.uniform(-12, 6), -rng.uniform(0, 0.95))) if x > 0 else 2.0 ** rng.uniform(-6, 6)
+                args = [f32(x * x * z), x]
+            else:
+                c = f32(rng.choice((0.0, 1.0, -1.0)) * rng.uniform(0, 5))
+                args = [c, f32(rng.choice((1, -1)) * (2.0 ** rng.uniform(-8, 2)))]
+            yield name, "real", args, list(second(*args))
+    for _, args, *_ in complex_wide_rows():
+        x, y = map(f32, args)
+        with mp.workdps(400):
+            z = mp.mpc(x, y)
+            value = mp.log(1 + z) / z
+            slope = (1 / (1 + z) - value) / z
+            second = -(1 / (1 + z) ** 2 + 2 * slope) / z
+        if mp.mpf(10) ** -30 < abs(second) < mp.mpf(10) ** 30:
+            yield "log1prel", "complex", [x, y], [second.real, second.imag]
 
 
 def text(values):
@@ -392,6 +460,12 @@ def main():
             fh.write("\t".join([name, "real", " ".join(map(repr, args)), text(v), text(d)]) + "\n")
         for name, args, v, d in complex_wide_rows():
             fh.write("\t".join([name, "complex", " ".join(map(repr, args)), text((v.real, v.imag)), text((d.real, d.imag))]) + "\n")
+    with open(os.path.join(out, "integral_second.tsv"), "w", encoding="utf-8") as fh:
+        fh.write("# second derivatives of the building blocks of ray integrals; written by tests/oracle/integrals.py\n")
+        for name, domain, args, values in second_rows():
+            cells = " ".join(show(v) if v else "0.0" for v in values)
+            fh.write("\t".join([name, domain, " ".join(map(repr, args)), cells]) + "\n")
+    mp.mp.dps = 80
     with open(os.path.join(out, "integral_complex.tsv"), "w", encoding="utf-8") as fh:
         fh.write("# edges of the building blocks of ray integrals; written by tests/oracle/integrals.py\n# function\tz.re\tz.im\tw.re\tw.im\tf.re\tf.im\td.re\td.im\tnotes\n")
         for x, y, re, im, d, notes in complex_rows():

@@ -48,7 +48,7 @@ def waves():
         ("cos(x)*cos(x)", 2), ("sin(6*x)*sin(6*y)*sin(6*z)", 11), ("2-sin(3*x)-sin(3*y)", 4),
         ("sin(1000*y)", 1000), ("sin(0.001*x)", 0.1), ("0.5+0.5*cos(40*len(x,0,0)^1*0+40*z)", 40),
     ]
-    return [D(t, speed=s, far=min(1e4, 600 / s)) for t, s in texts if "^1*0" not in t]
+    return [D(t, speed=s, far=min(1e4, 150 / s)) for t, s in texts if "^1*0" not in t]
 
 
 def exponentials():

@@ -14,7 +14,7 @@ fn spherical_series(x: f32, n: i32, sign: f32) -> f32 {
     return first * sum;
 }
 
-/// The spherical Bessel function of order n: the series where it does not cancel, from x = n on the recurrence (DLMF
+/// The spherical Bessel function of order n: the series where it does not cancel, from x = 1.3 n on the recurrence (DLMF
 /// 10.51.1) upwards, between the two downwards (Miller's algorithm, DLMF 3.6.ii).
 fn real_spherical_j(x: f32, n: i32) -> f32 {
     if is_nan(x) {
@@ -32,7 +32,7 @@ fn real_spherical_j(x: f32, n: i32) -> f32 {
     let first = (zeroth - real_cos(a)) / a;
     let inverse = 1.0 / a;
     var value = first;
-    if a >= f32(n) {
+    if a >= 1.3 * f32(n) {
         var last = zeroth;
         for (var k = 1; k < n; k++) {
             let next = f32(2 * k + 1) * inverse * value - last;
@@ -44,7 +44,7 @@ fn real_spherical_j(x: f32, n: i32) -> f32 {
     var above = 0.0;
     var wanted = 0.0;
     value = 1e-30;
-    for (var k = n + 15; k >= 0; k--) {
+    for (var k = n + n / 2 + 15; k >= 0; k--) {
         let next = f32(2 * k + 3) * inverse * value - above;
         above = value;
         value = next;

@@ -76,13 +76,13 @@ fn erfcx_right(x: f32) -> f32 {
     return p / (1.0 + 2.0 * x);
 }
 
-/// e^(x²) iⁿerfc x, n ≤ 7: for n = 0 the scaled complementary error function. From n = 1, x = 1 on by the continued fraction of
+/// e^(x²) iⁿerfc x, n ≤ 7: for n = 0 the scaled complementary error function. From n = 1, x = 1/2 on by the continued fraction of
 /// the recurrence DLMF 7.18.7, downwards, else by the recurrence upwards.
 fn real_erfcx(x: f32, n: i32) -> f32 {
     if is_nan(x) {
         return x;
     }
-    if n > 0 && x >= 1.0 {
+    if n > 0 && x >= 0.5 {
         return repeated_right(x, n);
     }
     let a = magnitude(x);
@@ -104,13 +104,13 @@ fn real_erfcx(x: f32, n: i32) -> f32 {
     return value;
 }
 
-/// The same for x ≥ 1: f(k)/f(k-1) = 1/(2 x + 2 (k + 1) f(k+1)/f(k)), from an index where it hardly matters.
+/// The same for x ≥ 1/2: f(k)/f(k-1) = 1/(2 x + 2 (k + 1) f(k+1)/f(k)), from an index where it hardly matters.
 fn repeated_right(x: f32, n: i32) -> f32 {
     if x > 1e6 {
         // the first term of the asymptotic series (DLMF 7.18.14)
         return 1.1283792 * small_power(0.5 / x, n + 1);
     }
-    let end = n + 5 + i32(24.0 / (x * x));
+    let end = n + 10 + i32(24.0 / (x * x));
     var ratio = 1.0 / (x + sqrt(x * x + 2.0 * f32(end)));
     var value = 1.1283792;
     for (var k = end - 1; k >= 0; k--) {

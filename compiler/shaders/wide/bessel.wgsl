@@ -14,7 +14,7 @@ fn spherical_series(x: real, n: i32, alternates: bool) -> real {
     return real_mul(first, sum);
 }
 
-/// The spherical Bessel function of order n: the series where it does not cancel, from x = n on the recurrence (DLMF
+/// The spherical Bessel function of order n: the series where it does not cancel, from x = 1.3 n on the recurrence (DLMF
 /// 10.51.1) upwards, between the two downwards (Miller's algorithm, DLMF 3.6.ii).
 fn real_spherical_j(x: real, n: i32) -> real {
     if is_nan(x) {
@@ -31,12 +31,12 @@ fn real_spherical_j(x: real, n: i32) -> real {
     }
     let inverse = real_div(num(1.0), a);
     let first = real_mul(real_sub(zeroth, real_cos(a)), inverse);
-    let grows = !is_below(a, f32(n));
+    let grows = !is_below(a, 1.3 * f32(n));
     // upwards from the orders 0 and 1, or downwards
     var value = choose(grows, first, num(1e-30));
     var last = choose(grows, zeroth, num(0.0));
     var wanted = value;
-    let steps = select(n + 28, n - 1, grows);
+    let steps = select(n + n / 2 + 28, n - 1, grows);
     for (var k = 0; k < steps; k++) {
         let order = select(steps - 1 - k, k, grows);
         let next = real_sub(real_mul(mul32(inverse, f32(2 * order + 3)), value), last);

@@ -56,6 +56,8 @@ pub struct Builder<'a> {
     pub(super) derivatives: FxHashMap<(Source, &'a str, u32, Value), Known>,
     /// Number of nodes that the passes which take derivatives have visited.
     pub(super) visits: usize,
+    /// Number of integrals that were built.
+    pub(super) integrals: usize,
     /// The rewrites of what is differentiated.
     pub(super) rewrites: Rewrites,
     /// Whether something was rewritten before it was differentiated.
@@ -90,6 +92,7 @@ impl<'a> Builder<'a> {
             frame: Frame::default(),
             derivatives: FxHashMap::default(),
             visits: 0,
+            integrals: 0,
             rewrites: Rewrites::OFF,
             rewrote: false,
             constants: FxHashMap::default(),

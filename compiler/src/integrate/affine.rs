@@ -3,7 +3,7 @@
 //! x = x_m + β s, w = β h, x₀ and x₁ the values at the ends, L the length.
 
 use super::algebraic::{MAX_DEGREE_BESIDE_POWER, NEAR_NODES};
-use super::arithmetic::{add, call, if_less, mul, scale, square, sub, total};
+use super::arithmetic::{add, call, if_less, mul, scale, square, total};
 use super::exponential::NEAR;
 use super::legendre::nodes_for_exponential;
 use super::quadratic::Affine;
@@ -66,19 +66,17 @@ impl Integrator<'_> {
         ))
     }
 
-    fn ends_of(&mut self, x: Affine) -> [Id; 2] {
-        let w = mul(self.g, x.slope, self.path.half);
-        [self.g.sub(x.mid, w), self.g.add(x.mid, w)]
-    }
-
     /// L X^p φ((p + 1) λ)/φ(λ) with X the end that is greater in size, λ = log1p(-2|w|/|X|) the logarithm of the ratio of
     /// both ends and φ(y) = (e^y - 1)/y: one formula for every exponent, -1 included.
     fn power_of_affine(&mut self, x: Affine, exponent: Id) -> Id {
         let w = mul(self.g, x.slope, self.path.half);
         let [w, mid] = [w, x.mid].map(|v| call(self.g, Prim::Abs, v));
-        let top = add(self.g, mid, w);
+        let sizes = x.ends.map(|v| call(self.g, Prim::Abs, v));
+        let top = self.g.apply(Prim::Max, &sizes);
         let ratio = self.g.div(w, top);
         let ratio = scale(self.g, -2.0, ratio);
+        let all = self.g.real(-1.0);
+        let ratio = self.g.apply(Prim::Max, &[ratio, all]);
         let log = call(self.g, Prim::Log1p, ratio);
         let least = self.g.real(-FAR);
         let log = self.g.apply(Prim::Max, &[log, least]);
@@ -94,7 +92,9 @@ impl Integrator<'_> {
         let mean = mul(self.g, size, ratio);
         let signed = self.with_sign(x.mid, exponent, mean);
         let through = self.through_zero(x, exponent);
-        let mean = if_less(self.g, mid, w, through, signed);
+        // an end that is beyond 0 by a rounding is at 0
+        let beyond = scale(self.g, 1.0 + 1e-6, mid);
+        let mean = if_less(self.g, beyond, w, through, signed);
         let length = self.length_of_path();
         mul(self.g, length, mean)
     }
@@ -106,7 +106,7 @@ impl Integrator<'_> {
             let is_even = p.rem_euclid(2.0) == 0.0;
             return self.g.real(if is_even { f64::INFINITY } else { f64::NAN });
         }
-        let ends = self.ends_of(x).map(|end| {
+        let ends = x.ends.map(|end| {
             let power = self.g.apply(Prim::Pow, &[end, exponent]);
             self.g.mul(end, power)
         });
@@ -149,7 +149,7 @@ impl Integrator<'_> {
         mut moment: impl FnMut(&mut Self, u32) -> Id,
     ) -> Id {
         let ratio = self.g.div(x.mid, x.slope);
-        let foot = self.g.neg(ratio);
+        let foot = self.g.sub(self.path.middle, ratio);
         let coefficients = self.taylor(polynomials, degree, foot);
         let mut parts = Vec::new();
         for (k, c) in (0_u32..).zip(coefficients) {
@@ -176,11 +176,12 @@ impl Integrator<'_> {
     fn log_moment(&mut self, x: Affine, k: u32) -> Id {
         let order = f64::from(k) + 1.0;
         let floor = self.g.real(TINY);
-        let ends = self.ends_of(x).map(|end| {
-            // NaN stays NaN below 0
-            let zero = self.g.real(0.0);
-            let safe = self.g.apply(Prim::Equal, &[end, zero]);
-            let inner = self.g.apply(Prim::Select, &[safe, floor, end]);
+        let ends = x.ends.map(|end| {
+            // what is below 0 by a rounding is 0; NaN stays NaN
+            let rounding = scale(self.g, 1e-6, x.mid);
+            let size = call(self.g, Prim::Abs, end);
+            let least = self.g.apply(Prim::Max, &[size, floor]);
+            let inner = if_less(self.g, size, rounding, least, end);
             let log = call(self.g, Prim::Log, inner);
             let shift = self.g.real(1.0 / order);
             let rest = self.g.sub(log, shift);
@@ -213,8 +214,11 @@ impl Integrator<'_> {
         let x = self.affine(of);
         let w = mul(self.g, x.slope, self.path.half);
         let [w, mid] = [w, x.mid].map(|v| call(self.g, Prim::Abs, v));
-        // y = 2 e^(|w| - |x_m|) φ(-2|w|)/(1 + e^(-2|x_m|))
-        let difference = self.g.sub(w, mid);
+        // y = 2 e^(|w| - |x_m|) φ(-2|w|)/(1 + e^(-2|x_m|)), the exponent being ± the lesser end in size
+        let ends = x.ends.map(|end| call(self.g, Prim::Abs, end));
+        let lesser = self.g.apply(Prim::Min, &ends);
+        let back = self.g.neg(lesser);
+        let difference = if_less(self.g, mid, w, lesser, back);
         let size = call(self.g, Prim::Exp, difference);
         let (wide, steep) = (scale(self.g, -2.0, w), scale(self.g, -2.0, mid));
         let quotient = call(self.g, Prim::Exprel, wide);
@@ -240,10 +244,12 @@ impl Integrator<'_> {
         let x = self.affine(of);
         let w = mul(self.g, x.slope, self.path.half);
         let w = call(self.g, Prim::Abs, w);
-        let sizes = self.ends_of(x).map(|end| call(self.g, Prim::Abs, end));
-        let double = scale(self.g, 2.0, w);
-        let sum = self.g.add(sizes[0], sizes[1]);
-        let exponent = self.g.sub(double, sum);
+        let sizes = x.ends.map(|end| call(self.g, Prim::Abs, end));
+        // 2|w| - |x₀| - |x₁| is 0 where x changes its sign, else -2 times the lesser of both
+        let (mid, zero) = (call(self.g, Prim::Abs, x.mid), self.g.real(0.0));
+        let lesser = self.g.apply(Prim::Min, &sizes);
+        let beside = scale(self.g, -2.0, lesser);
+        let exponent = if_less(self.g, mid, w, zero, beside);
         let size = call(self.g, Prim::Exp, exponent);
         let wide = scale(self.g, -4.0, w);
         let quotient = call(self.g, Prim::Exprel, wide);
@@ -264,7 +270,7 @@ impl Integrator<'_> {
     /// half as long as the singularities are far; nodes of the function elsewhere.
     fn sigmoidal(&mut self, prim: Prim, of: Id) -> Id {
         let x = self.affine(of);
-        let ends = self.ends_of(x).map(|end| self.antiderivative(prim, end));
+        let ends = x.ends.map(|end| self.antiderivative(prim, end));
         let difference = self.g.sub(ends[1], ends[0]);
         let far = self.g.div(difference, x.slope);
         let function = call(self.g, prim, of);
@@ -321,7 +327,10 @@ impl Integrator<'_> {
         let x = self.affine(of);
         let w = mul(self.g, x.slope, self.path.half);
         let w = call(self.g, Prim::Abs, w);
-        let (low, high) = (sub(self.g, x.mid, w), add(self.g, x.mid, w));
+        let (low, high) = (
+            self.g.apply(Prim::Min, &x.ends),
+            self.g.apply(Prim::Max, &x.ends),
+        );
         let [from, to] = [low, high].map(|end| call(self.g, Prim::Log1pExp, end));
         let width = scale(self.g, 2.0, w);
         let difference = self.g.sub(to, from);

@@ -28,7 +28,7 @@ pub(super) struct Bowl {
     reach: Id,
     /// Length of the interval with its sign.
     length: Id,
-    /// Values at the ends s = -h and s = h.
+    /// Values at both ends; what is below 0 by a rounding is 0.
     ends: [Id; 2],
 }
 
@@ -124,8 +124,11 @@ impl Integrator<'_> {
         let q = self.quadratic(base);
         let half = self.path.half;
         let square_half = square(self.g, half);
-        let back = self.g.neg(half);
-        let ends = [back, half].map(|s| self.at(&[base], s)[0]);
+        let rounding = scale(self.g, 1e-6, q.c);
+        let ends = q.ends.map(|end| {
+            let size = call(self.g, Prim::Abs, end);
+            if_less(self.g, size, rounding, size, end)
+        });
         Bowl {
             q,
             reach: mul(self.g, q.a, square_half),
@@ -142,14 +145,9 @@ impl Integrator<'_> {
         if_less(self.g, reach, limit, near, far)
     }
 
-    /// E = c - a h²
-    fn chord(&mut self, bowl: &Bowl) -> Id {
-        sub(self.g, bowl.q.c, bowl.reach)
-    }
-
     /// ∫ 1/q = L atan2(√(D L²), E)/√(D L²), which is one formula through D = 0.
     fn reciprocal(&mut self, bowl: &Bowl) -> Id {
-        let e = self.chord(bowl);
+        let e = bowl.q.chord;
         let square_length = square(self.g, bowl.length);
         let p = mul(self.g, bowl.q.discriminant, square_length);
         let quotient = self.g.apply(Prim::Atan2Quotient, &[p, e]);
@@ -163,7 +161,7 @@ impl Integrator<'_> {
 
     /// r₀ r₁ + E, which is D L²/(r₀ r₁ - E) where E < 0.
     fn width(&mut self, bowl: &Bowl, roots: [Id; 2]) -> Id {
-        let e = self.chord(bowl);
+        let e = bowl.q.chord;
         let product = mul(self.g, roots[0], roots[1]);
         let sum = add(self.g, product, e);
         let square_length = square(self.g, bowl.length);
@@ -186,8 +184,7 @@ impl Integrator<'_> {
         let open = scale(self.g, 2.0, product);
         let width = self.width(bowl, roots);
         let around = self.log_form(bowl, sum, width);
-        let (e, zero) = (self.chord(bowl), self.g.real(0.0));
-        if_less(self.g, e, zero, around, open)
+        self.is_long(bowl, around, open)
     }
 
     fn log_form(&mut self, bowl: &Bowl, sum: Id, width: Id) -> Id {
@@ -230,8 +227,7 @@ impl Integrator<'_> {
         let mean = sub(self.g, mean, correction);
         let open = mul(self.g, bowl.length, mean);
         let around = self.power_by_parts(bowl, 1);
-        let (e, zero) = (self.chord(bowl), self.g.real(0.0));
-        if_less(self.g, e, zero, around, open)
+        self.is_long(bowl, around, open)
     }
 
     /// ∫ q^(-3/2) = L (r₀ + r₁)/(r₀ r₁ (r₀ r₁ + E)).
@@ -244,19 +240,21 @@ impl Integrator<'_> {
         mul(self.g, bowl.length, mean)
     }
 
-    /// s₀ = -b/a and σ at both ends.
-    fn foot(&mut self, bowl: &Bowl) -> (Id, [Id; 2]) {
-        let ratio = self.g.div(bowl.q.b, bowl.q.a);
-        let half = self.path.half;
-        let back = self.g.neg(half);
-        let offsets = [back, half].map(|s| self.g.add(s, ratio));
-        (self.g.neg(ratio), offsets)
+    /// σ = t - t₀ at both ends, t₀ the place of the least q.
+    fn offsets(&mut self, bowl: &Bowl) -> [Id; 2] {
+        bowl.q.slopes.map(|b| self.g.div(b, bowl.q.a))
+    }
+
+    /// Whether a h² is more than three tenths of c: the interval is so long that antiderivatives do not cancel.
+    fn is_long(&mut self, bowl: &Bowl, then: Id, otherwise: Id) -> Id {
+        let limit = scale(self.g, 0.7, bowl.q.c);
+        if_less(self.g, bowl.q.chord, limit, then, otherwise)
     }
 
     /// ∫ q^(n/2) for n > 0 by parts down to the root or to the reciprocal root:
     /// (n + 1) I = [σ q^(n/2)] + n (D/a) I of n - 2.
     fn power_by_parts(&mut self, bowl: &Bowl, n: i32) -> Id {
-        let (_, offsets) = self.foot(bowl);
+        let offsets = self.offsets(bowl);
         let depth = self.g.div(bowl.q.discriminant, bowl.q.a);
         let (roots, _) = self.roots(bowl);
         let mut value = self.around_root(bowl);
@@ -298,8 +296,8 @@ impl Integrator<'_> {
 
     /// Σ p⁽ᵏ⁾(s₀)/k! ∫ σᵏ w for a power or logarithm w of q, where the interval is long.
     fn moments(&mut self, bowl: &Bowl, polynomials: &[Id], degree: u32, weight: Moments) -> Id {
-        let (foot, offsets) = self.foot(bowl);
-        let coefficients = self.taylor(polynomials, degree, foot);
+        let offsets = self.offsets(bowl);
+        let coefficients = self.taylor(polynomials, degree, bowl.q.foot);
         let moments = match weight {
             Moments::Power(n) => self.power_moments(bowl, offsets, n, degree),
             Moments::Log => self.log_moments(bowl, offsets, degree),
@@ -312,15 +310,15 @@ impl Integrator<'_> {
         total(self.g, parts)
     }
 
-    /// The coefficients of a product of polynomials around s.
-    pub(super) fn taylor(&mut self, polynomials: &[Id], degree: u32, s: Id) -> Vec<Id> {
+    /// The coefficients of a product of polynomials around t.
+    pub(super) fn taylor(&mut self, polynomials: &[Id], degree: u32, t: Id) -> Vec<Id> {
         let one = self.g.real(1.0);
         let mut derivatives = vec![polynomials.iter().fold(one, |p, &q| mul(self.g, p, q))];
         for _ in 0..degree {
             let last = derivatives[derivatives.len() - 1];
             derivatives.push(self.slope(last));
         }
-        let values = self.at(&derivatives, s);
+        let values = self.at_place(&derivatives, t);
         let mut factorial = 1.0;
         let mut out = Vec::new();
         for (k, &value) in (0_u32..).zip(&values) {
@@ -401,19 +399,17 @@ impl Integrator<'_> {
         self.g.apply(Prim::PowInt(n), &[root])
     }
 
-    /// ∫ p q^(n/2) ds = ∫ p q^(n/2 + 1) du by u = ∫ ds/q from the middle, which is the angle under which the interval is
-    /// seen from the zero of q, over √D. There s = c u sinc(√D u)/B and q = c/B², B = cos(√D u) - b u sinc(√D u): what
-    /// remains is a polynomial in sin and cos of degree k = -n - 2, for which nodes over the angle are enough. B is the
-    /// cosine of the angle from the foot times √(a c/D), so that nothing cancels where the integrand is large.
+    /// ∫ p q^(n/2) dt = ∫ p q^(n/2 + 1) du by u = ∫ dt/q from the place of the least q in the interval, which is the angle
+    /// under which the way is seen from the zero of q, over √D. There t - t₀ = c u sinc(√D u)/B and q = c/B² with
+    /// B = cos(√D u) - b u sinc(√D u), c and b the value and half the slope of q at that place: what remains is a
+    /// polynomial in sin and cos of degree k = -n - 2, for which nodes over the angle are enough.
     ///
     /// Kulla and Fajardo, "Importance sampling techniques for path tracing in participating media", 2012, for the map.
     fn equiangular(&mut self, bowl: &Bowl, polynomials: &[Id], k: u32) -> Id {
-        let q = bowl.q;
-        let back = self.g.neg(self.path.half);
-        let ends = [back, self.path.half].map(|s| self.angle_from_middle(&q, s));
-        let (sum, difference) = (self.g.add(ends[0], ends[1]), self.reciprocal(bowl));
+        let (least, ends) = self.least(bowl);
+        let (sum, difference) = (self.g.add(ends[0], ends[1]), self.g.sub(ends[1], ends[0]));
         let (middle, reach) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, difference));
-        let root = call(self.g, Prim::Sqrt, q.discriminant);
+        let root = call(self.g, Prim::Sqrt, bowl.q.discriminant);
         let one = self.g.real(1.0);
         let product = polynomials
             .iter()
@@ -436,33 +432,68 @@ impl Integrator<'_> {
                     call(self.g, Prim::Cos, turn),
                 );
                 let step = mul(self.g, u, sine);
-                let down = mul(self.g, q.b, step);
+                let down = mul(self.g, least.slope, step);
                 let base = sub(self.g, cosine, down);
                 let mut value = self.g.apply(Prim::PowInt(exponent), &[base]);
                 if product != one {
-                    let top = mul(self.g, q.c, step);
-                    let s = self.g.div(top, base);
-                    let factor = self.at(&[product], s)[0];
+                    let top = mul(self.g, least.value, step);
+                    let offset = self.g.div(top, base);
+                    let t = self.g.add(least.place, offset);
+                    let factor = self.at_place(&[product], t)[0];
                     value = mul(self.g, value, factor);
                 }
                 let value = scale(self.g, node.weight, value);
                 sum = add(self.g, sum, value);
             }
         }
-        let size = self.half_power(q.c, exponent);
+        let size = self.half_power(least.value, exponent);
         let mean = self.g.div(sum, size);
         mul(self.g, reach, mean)
     }
 
-    /// ∫ ds/q from the middle to s.
-    fn angle_from_middle(&mut self, q: &Quadratic, s: Id) -> Id {
-        let step = mul(self.g, q.b, s);
-        let x = add(self.g, q.c, step);
-        let square_s = square(self.g, s);
-        let p = mul(self.g, q.discriminant, square_s);
-        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, x]);
-        mul(self.g, s, quotient)
+    /// The place of the least q in the interval, and ∫ dt/q from there to both ends.
+    fn least(&mut self, bowl: &Bowl) -> (Least, [Id; 2]) {
+        let q = bowl.q;
+        let zero = self.g.real(0.0);
+        let product = self.g.mul(q.slopes[0], q.slopes[1]);
+        let inside = self.g.apply(Prim::Less, &[product, zero]);
+        let first = self.g.apply(Prim::Less, &[q.ends[0], q.ends[1]]);
+        let choose = |this: &mut Self, foot: Id, ends: [Id; 2]| {
+            let end = this.g.apply(Prim::Select, &[first, ends[0], ends[1]]);
+            this.g.apply(Prim::Select, &[inside, foot, end])
+        };
+        let depth = self.g.div(q.discriminant, q.a);
+        let value = choose(self, depth, q.ends);
+        let slope = choose(self, zero, q.slopes);
+        let place = choose(self, q.foot, self.path.ends);
+        let whole = self.reciprocal(bowl);
+        let back = self.g.neg(whole);
+        let offsets = self.offsets(bowl);
+        let beside = [[zero, back], [whole, zero]];
+        let angles = [0, 1].map(|k| {
+            let s = offsets[k];
+            let square_s = square(self.g, s);
+            let p = mul(self.g, q.discriminant, square_s);
+            let quotient = self.g.apply(Prim::Atan2Quotient, &[p, depth]);
+            let around = mul(self.g, s, quotient);
+            choose(self, around, beside[k])
+        });
+        (
+            Least {
+                place,
+                value,
+                slope,
+            },
+            angles,
+        )
     }
+}
+
+/// Where a quadratic is least in an interval: t, its value, and half its slope.
+struct Least {
+    place: Id,
+    value: Id,
+    slope: Id,
 }
 
 /// What a polynomial is multiplied by.

@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::arithmetic::{call, if_less, mul, scale, square, sub};
+use super::arithmetic::{call, if_less, mul, square, sub};
 use super::path::cone;
 use super::term::Factor;
 use super::{Integrator, Problem, Reason};
@@ -18,7 +18,7 @@ const MAX_FORMS: usize = 16;
 type OnPiece<'g> = fn(&mut Integrator<'g>, Id) -> Result<Id, Problem>;
 
 impl<'g> Integrator<'g> {
-    /// The places where conditions of an expression may change, as values of s; what is not a number or is outside of
+    /// The places where conditions of an expression may change, as values of t; what is not a number or is outside of
     /// the interval is none. There may be more places than changes: cutting there does no harm.
     ///
     /// # Errors
@@ -45,9 +45,14 @@ impl<'g> Integrator<'g> {
             }
         }
         let mut cuts = Vec::new();
-        for zero in zeros {
-            self.zeros(zero, &mut cuts)?;
-        }
+        // t at the zeros, so that they are exact to the distance from the origin
+        let whole = self.path.clone();
+        self.path = whole.from_origin(self.g);
+        let found = zeros
+            .into_iter()
+            .try_for_each(|zero| self.zeros(zero, &mut cuts));
+        self.path = whole;
+        found?;
         cuts.dedup();
         if cuts.len() > MAX_BREAKS {
             return Err(self.problem(root, Reason::Bound("breakpoints", MAX_BREAKS)));
@@ -204,17 +209,11 @@ impl<'g> Integrator<'g> {
             .then_some(polynomial)
     }
 
-    /// -u/u' where that is inside of the interval: |u| < |u' h|, so that the quotient is less than |h|.
+    /// -u/u': where u hardly changes that is no number, or far outside of the interval, and so no cut.
     fn zero_of_affine(&mut self, of: Id) -> Id {
         let u = self.affine(of);
-        let half = self.path.half;
-        let reach = mul(self.g, u.slope, half);
-        let ratio = self.g.div(u.mid, reach);
-        let back = self.g.neg(half);
-        let place = self.g.mul(back, ratio);
-        let sizes = [u.mid, reach].map(|x| call(self.g, Prim::Abs, x));
-        let nowhere = self.g.real(f64::NAN);
-        if_less(self.g, sizes[0], sizes[1], place, nowhere)
+        let ratio = self.g.div(u.mid, u.slope);
+        self.g.neg(ratio)
     }
 
     /// The zeros of a s² + 2 b s + c: with r = -(b ± √(b² - a c)), the sign that of b, they are r/a and c/r.
@@ -241,8 +240,8 @@ impl<'g> Integrator<'g> {
         on_piece: OnPiece<'g>,
     ) -> Result<Id, Problem> {
         let whole = self.path.clone();
-        let reach = call(self.g, Prim::Abs, whole.half);
-        let start = self.g.neg(reach);
+        let start = self.g.apply(Prim::Min, &whole.ends);
+        let reach = self.g.apply(Prim::Max, &whole.ends);
         let total = if let &[cut] = cuts {
             let place = self.next_cut(start, &[cut], reach);
             let left = self.piece(root, start, place, on_piece)?;
@@ -301,16 +300,45 @@ impl<'g> Integrator<'g> {
         next
     }
 
-    /// The integral from s = a to s = b, where conditions do not change.
+    /// The integral from t = a to t = b, where conditions do not change.
     fn piece(&mut self, root: Id, a: Id, b: Id, on_piece: OnPiece<'g>) -> Result<Id, Problem> {
-        let (sum, width) = (self.g.add(a, b), self.g.sub(b, a));
-        let (middle, half) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, width));
         let whole = self.path.clone();
-        self.path = whole.part(self.g, middle, half);
+        self.path = whole.between(self.g, [a, b]);
         let decided = self.decided(root);
         let value = on_piece(self, decided);
         self.path = whole;
         value
+    }
+
+    /// f(if c then a else b) as if c then f(a) else f(b) for what is no sum or product.
+    fn distributed(&mut self, prim: Prim, args: &[Id]) -> Id {
+        let of_choice = |this: &Self, id: Id| {
+            let node = this.g.node(id);
+            (node.op == Op::Apply(Prim::Select)).then(|| node.args.clone())
+        };
+        let place = match prim {
+            Prim::Neg | Prim::Add | Prim::Sub | Prim::Mul | Prim::Select => {
+                return self.g.apply(prim, args);
+            }
+            Prim::PowInt(n) if n > 0 => return self.g.apply(prim, args),
+            Prim::Div => 1,
+            _ => 0,
+        };
+        let choice = args.get(place).and_then(|&a| of_choice(self, a));
+        let Some(choice) = choice.filter(|c| !self.moves(c[0])) else {
+            return self.g.apply(prim, args);
+        };
+        let sides = [choice[1], choice[2]].map(|side| {
+            let mut args: SmallVec<[Id; 3]> = SmallVec::from_slice(args);
+            args[place] = side;
+            let is_choice = of_choice(self, side).is_some_and(|c| of_choice(self, c[1]).is_none());
+            if is_choice {
+                self.distributed(prim, &args)
+            } else {
+                self.g.apply(prim, &args)
+            }
+        });
+        self.g.apply(Prim::Select, &[choice[0], sides[0], sides[1]])
     }
 
     /// A condition or a sign in the middle of the path.
@@ -358,7 +386,7 @@ impl<'g> Integrator<'g> {
                     let (low, high) = if prim == Prim::Min { (a, b) } else { (b, a) };
                     self.decided_choice((low, high), args[0], args[1])
                 }
-                _ => self.g.apply(prim, &args),
+                _ => self.distributed(prim, &args),
             };
             map.insert(id, new);
         }

@@ -71,10 +71,20 @@ impl Integrator<'_> {
         };
         let of = |k: usize| known.get(&node.args[k]).cloned().unwrap_or_default();
         match prim {
-            Prim::Neg => Ok(self.scaled(of(0), -1.0)),
+            Prim::Neg => {
+                let mut terms = self.scaled(of(0), -1.0);
+                for term in &mut terms {
+                    term.product = term.product.map(|_| id);
+                }
+                Ok(terms)
+            }
             Prim::Add => self.join(of(0), of(1), id),
             Prim::Sub => {
-                let right = self.scaled(of(1), -1.0);
+                let negated = self.g.neg(node.args[1]);
+                let mut right = self.scaled(of(1), -1.0);
+                for term in &mut right {
+                    term.product = term.product.map(|_| negated);
+                }
                 self.join(of(0), right, id)
             }
             Prim::Mul => self.product(&of(0), &of(1), id),
@@ -90,6 +100,7 @@ impl Integrator<'_> {
                 for (terms, holds) in [(&mut then, true), (&mut otherwise, false)] {
                     for term in terms {
                         term.guards.push((condition, holds));
+                        term.product = None;
                     }
                 }
                 self.join(then, otherwise, id)
@@ -180,6 +191,10 @@ impl Integrator<'_> {
                     out.push(left.times(self.g, right, id));
                 }
             }
+        }
+        let several = out.len() > 1;
+        for term in &mut out {
+            term.product = several.then_some(id);
         }
         self.bounded(out, id)
     }

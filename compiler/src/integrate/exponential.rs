@@ -6,12 +6,15 @@ use smallvec::SmallVec;
 
 use super::arithmetic::{add, call, if_less, mul, scale, sub, total};
 use super::legendre::nodes_for_exponential;
+use super::path::Body;
 use super::quadratic::Affine;
 use super::rule::Rule;
 use super::term::{Factor, Term};
 use super::{Integrator, Problem, Reason};
 use crate::ir::{Id, Prim};
 
+/// Greatest number of waves that a product becomes the sum of.
+pub const MAX_WAVES: usize = 512;
 /// Greatest degree of a polynomial beside an exponential or a wave.
 pub const MAX_DEGREE_BESIDE: u32 = 16;
 
@@ -24,13 +27,16 @@ type Phases = SmallVec<[(Id, i32); 4]>;
 /// Σ of waves of sums of phases; the key is the wave and its phases.
 type Waves = BTreeMap<(bool, Vec<(Id, i32)>), f64>;
 
+/// Values of a polynomial and its derivatives.
+pub(super) type Values = SmallVec<[Id; 4]>;
+
 /// e^exponent times one wave.
 #[derive(Clone, Debug)]
-struct Wave {
-    scale: f64,
-    exponent: Option<Affine>,
+pub(super) struct Wave {
+    pub scale: f64,
+    pub exponent: Option<Affine>,
     /// sin, cos, sinh or cosh.
-    wave: Option<(Prim, Affine)>,
+    pub wave: Option<(Prim, Affine)>,
 }
 
 impl Integrator<'_> {
@@ -39,44 +45,42 @@ impl Integrator<'_> {
     /// One exponential: 2h e^(α + |βh|) φ(-2|βh|) with φ(x) = (eˣ - 1)/x. One wave: 2h sinc(δh) sin(γ). Products of waves
     /// become sums (NIST DLMF 4.21(ii), 4.35(ii)); where all phases together change by no more than 1 each, nodes
     /// of Gauss and Legendre take the integrand as it is, so that nothing cancels near a common zero. With a polynomial
-    /// repeated integration by parts from both ends (NIST DLMF 4.10(i), 4.26(ii)), and nodes where the exponent
-    /// changes by less than the degree and 2.
+    /// each of these is integrated by [`Self::polynomial_by_wave`].
     pub(super) fn exponential(&mut self, term: &Term) -> Result<(Id, Rule), Problem> {
         let parts = Parts::of(term);
         let degree = self.polynomial_degree(&parts.polynomials);
         if degree > MAX_DEGREE_BESIDE {
-            return Err(self.problem(
-                term.source,
-                Reason::Bound(
-                    "degrees of a polynomial beside an exponential",
-                    MAX_DEGREE_BESIDE as usize,
-                ),
-            ));
+            let bound = MAX_DEGREE_BESIDE as usize;
+            let reason = Reason::Bound("degrees of a polynomial beside an exponential", bound);
+            return Err(self.problem(term.source, reason));
         }
         let exponent = parts.exponent.map(|e| self.affine(e));
-        let waves = self.as_sum(&parts, exponent)?;
+        let Some(waves) = self.as_sum(&parts, exponent) else {
+            return Err(self.problem(term.source, Reason::Bound("waves", MAX_WAVES)));
+        };
+        let (far, rule) = if degree > 0 {
+            let integral = self.polynomial_by_waves(&parts.polynomials, degree, &waves);
+            (integral, Rule::PolynomialByWave)
+        } else {
+            let rule = match (exponent, parts.waves.len()) {
+                (Some(_), 0) => Rule::Exponential,
+                (None, 1) => Rule::Wave,
+                (_, 1) => Rule::DampedWave,
+                _ => Rule::ProductOfWaves,
+            };
+            (self.sum_of(&waves), rule)
+        };
         let is_growth = |w: &(Prim, Id)| matches!(w.0, Prim::Sinh | Prim::Cosh);
         let may_cancel =
             parts.waves.len() > 1 || exponent.is_some() && parts.waves.iter().any(is_growth);
-        if degree == 0 && !may_cancel {
-            let sum = self.sum_of(&waves);
-            let rule = match (exponent, parts.waves.first()) {
-                (Some(_), None) => Rule::Exponential,
-                (None, _) => Rule::Wave,
-                _ => Rule::DampedWave,
-            };
-            return Ok((sum, rule));
+        // beside other terms of one product that is taken as it is on short intervals
+        if !may_cancel || term.product.is_some() {
+            return Ok((far, rule));
         }
         let change = self.change(&parts, exponent);
-        let (limit, rule, far) = if degree == 0 {
-            let count = parts.waves.len() + usize::from(exponent.is_some());
-            #[allow(clippy::cast_precision_loss, reason = "a count of at most 17")]
-            let limit = count as f64;
-            (limit, Rule::ProductOfWaves, self.sum_of(&waves))
-        } else {
-            let far = self.by_parts(&parts.polynomials, degree, &waves)?;
-            (f64::from(degree) + 2.0, Rule::PolynomialByWave, far)
-        };
+        let count = parts.waves.len() + usize::from(exponent.is_some());
+        #[allow(clippy::cast_precision_loss, reason = "a count of at most 17")]
+        let limit = count as f64;
         let integrand = term.moving(self.g);
         let nodes = nodes_for_exponential(limit, degree as usize, NEAR);
         let near = self.gauss(integrand, nodes);
@@ -107,12 +111,15 @@ impl Integrator<'_> {
     }
 
     /// The waves as a sum of exponentials times at most one wave each.
-    fn as_sum(&mut self, parts: &Parts, exponent: Option<Affine>) -> Result<Vec<Wave>, Problem> {
+    pub(super) fn as_sum(&mut self, parts: &Parts, exponent: Option<Affine>) -> Option<Vec<Wave>> {
         let is_round = |p: &Prim| matches!(p, Prim::Sin | Prim::Cos);
         let (round, hyperbolic): (Vec<_>, Vec<_>) =
             parts.waves.iter().copied().partition(|w| is_round(&w.0));
-        let round_sum = product_to_sum(&round, true);
-        let hyperbolic_sum = product_to_sum(&hyperbolic, false);
+        let round_sum = product_to_sum(&round, true)?;
+        let hyperbolic_sum = product_to_sum(&hyperbolic, false)?;
+        if round_sum.len() * hyperbolic_sum.len() > MAX_WAVES {
+            return None;
+        }
         let mut out = Vec::new();
         for ((sine, phases), v) in &round_sum {
             let wave = self.combined(phases);
@@ -140,10 +147,7 @@ impl Integrator<'_> {
                     Some(growth) => {
                         let back = if *odd { -1.0 } else { 1.0 };
                         for (sign, factor) in [(1.0, 1.0), (-1.0, back)] {
-                            let turned = Affine {
-                                mid: scale(self.g, sign, growth.mid),
-                                slope: scale(self.g, sign, growth.slope),
-                            };
+                            let turned = self.multiple(sign, growth);
                             let exponent = Some(match exponent {
                                 None => turned,
                                 Some(e) => self.sum_of_affine(e, turned),
@@ -158,13 +162,22 @@ impl Integrator<'_> {
                 }
             }
         }
-        Ok(out)
+        Some(out)
     }
 
     fn sum_of_affine(&mut self, a: Affine, b: Affine) -> Affine {
         Affine {
             mid: add(self.g, a.mid, b.mid),
             slope: add(self.g, a.slope, b.slope),
+            ends: [0, 1].map(|k| add(self.g, a.ends[k], b.ends[k])),
+        }
+    }
+
+    fn multiple(&mut self, v: f64, a: Affine) -> Affine {
+        Affine {
+            mid: scale(self.g, v, a.mid),
+            slope: scale(self.g, v, a.slope),
+            ends: a.ends.map(|end| scale(self.g, v, end)),
         }
     }
 
@@ -173,10 +186,7 @@ impl Integrator<'_> {
         let mut sum: Option<Affine> = None;
         for &(phase, n) in phases {
             let one = self.affine(phase);
-            let one = Affine {
-                mid: scale(self.g, f64::from(n), one.mid),
-                slope: scale(self.g, f64::from(n), one.slope),
-            };
+            let one = self.multiple(f64::from(n), one);
             sum = Some(match sum {
                 None => one,
                 Some(sum) => self.sum_of_affine(sum, one),
@@ -220,7 +230,7 @@ impl Integrator<'_> {
     pub(super) fn mean_of_exponential(&mut self, e: Affine) -> Id {
         let change = mul(self.g, e.slope, self.path.half);
         let size = call(self.g, Prim::Abs, change);
-        let top = add(self.g, e.mid, size);
+        let top = self.g.apply(Prim::Max, &e.ends);
         let (top, twice) = (call(self.g, Prim::Exp, top), scale(self.g, -2.0, size));
         let quotient = call(self.g, Prim::Exprel, twice);
         mul(self.g, top, quotient)
@@ -238,7 +248,7 @@ impl Integrator<'_> {
         let argument = self.g.apply(Prim::Complex, &twice);
         let quotient = call(self.g, Prim::Exprel, argument);
         let [re, im] = [Prim::Re, Prim::Im].map(|part| call(self.g, part, quotient));
-        let (top, turn) = (add(self.g, e.mid, w), add(self.g, phase.mid, v));
+        let (top, turn) = (self.g.apply(Prim::Max, &e.ends), add(self.g, phase.mid, v));
         let size = call(self.g, Prim::Exp, top);
         let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, turn));
         let mixed = if prim == Prim::Sin {
@@ -251,36 +261,41 @@ impl Integrator<'_> {
         mul(self.g, size, mixed)
     }
 
-    /// ∫ p e^λs = [e^λs (p - (p' - (p'' - …)/λ)/λ)/λ] at both ends.
-    fn by_parts(&mut self, polynomials: &[Id], degree: u32, waves: &[Wave]) -> Result<Id, Problem> {
+    /// ∫ p e^λs = [e^λs (p - (p' - (p'' - …)/λ)/λ)/λ] at both ends, for one wave; the derivatives of p at the ends
+    /// are given.
+    pub(super) fn by_parts(&mut self, ends: &[(f64, Values); 2], wave: &Wave) -> Id {
+        let mut sum = self.g.real(0.0);
+        for (side, values) in ends {
+            let part = self.end(wave, *side, values);
+            let part = scale(self.g, *side, part);
+            sum = add(self.g, sum, part);
+        }
+        sum
+    }
+
+    /// The derivatives of a product of polynomials at both ends.
+    pub(super) fn derivatives_at_ends(
+        &mut self,
+        polynomials: &[Id],
+        degree: u32,
+    ) -> [(f64, Values); 2] {
         let one = self.g.real(1.0);
         let mut derivatives = vec![polynomials.iter().fold(one, |p, &q| mul(self.g, p, q))];
         for _ in 0..degree {
             let last = derivatives[derivatives.len() - 1];
             derivatives.push(self.slope(last));
         }
-        let mut sum = self.g.real(0.0);
-        let ends = [1.0, -1.0].map(|side| {
-            let s = scale(self.g, side, self.path.half);
-            (side, self.at(&derivatives, s))
-        });
-        for wave in waves {
-            for (side, values) in &ends {
-                let part = self.end(wave, *side, values);
-                let part = scale(self.g, side * wave.scale, part);
-                sum = add(self.g, sum, part);
-            }
-        }
-        Ok(sum)
+        let leaves = self.path.coordinates.iter().map(|c| c.leaf);
+        let body = Body::new(self.g, &derivatives, leaves);
+        [(1.0, 1), (-1.0, 0)].map(|(side, which)| {
+            let values = self.path.end(self.g, which);
+            (side, body.at(self.g, &values))
+        })
     }
 
     /// The antiderivative of a polynomial, given by its derivatives at an end, times one wave.
     fn end(&mut self, of: &Wave, side: f64, values: &[Id]) -> Id {
-        let at_end = |this: &mut Self, a: Affine| {
-            let step = mul(this.g, a.slope, this.path.half);
-            let step = scale(this.g, side, step);
-            add(this.g, a.mid, step)
-        };
+        let at_end = |_: &mut Self, a: Affine| a.ends[usize::from(side > 0.0)];
         let exponent = of.exponent.map(|e| (at_end(self, e), e.slope));
         let wave = of
             .wave
@@ -400,8 +415,8 @@ impl Parts {
 }
 
 /// cos A cos u = (cos(A + u) + cos(A - u))/2 and its kin: a product of waves as a sum of waves of sums. `round`: sin and
-/// cos, else sinh and cosh. The empty product is cos 0.
-fn product_to_sum(waves: &[(Prim, Id)], round: bool) -> Waves {
+/// cos, else sinh and cosh. The empty product is cos 0. `None` of more than [`MAX_WAVES`].
+fn product_to_sum(waves: &[(Prim, Id)], round: bool) -> Option<Waves> {
     let mut sum: Waves = BTreeMap::new();
     sum.insert((false, Vec::new()), 1.0);
     for &(prim, phase) in waves {
@@ -423,9 +438,12 @@ fn product_to_sum(waves: &[(Prim, Id)], round: bool) -> Waves {
             }
         }
         next.retain(|_, v| *v != 0.0);
+        if next.len() > MAX_WAVES {
+            return None;
+        }
         sum = next;
     }
-    sum
+    Some(sum)
 }
 
 /// Adds n times a phase; the first multiple is made positive, and whether that turned the whole is told.

@@ -18,7 +18,9 @@ use crate::ir::{Id, Prim};
 pub const MAX_DEGREE_BESIDE_GAUSSIAN: u32 = 7;
 /// Half-width in u from which on the closed form takes over from an exponential of degree 1.
 const LEAST_WIDTH: f64 = 1e-7;
-/// The same beside polynomials, whose derivatives are divided by powers of it.
+/// Widths beyond which a Gaussian counts as 0: e⁻⁴⁹ is 5e-22.
+const ENOUGH: f64 = 7.0;
+/// The same as [`LEAST_WIDTH`] beside polynomials, whose derivatives are divided by powers of it.
 const LEAST_WIDTH_BESIDE: f64 = 3e-4;
 
 impl Integrator<'_> {
@@ -49,10 +51,10 @@ impl Integrator<'_> {
         }
         let integrand = term.moving(self.g);
         let (value, rule) = if degree == 0 {
-            (self.mass(&q, negated), Rule::Gaussian)
+            (self.mass(&q), Rule::Gaussian)
         } else {
             (
-                self.moments_of_gaussian(&q, negated, &parts.polynomials, degree, integrand),
+                self.moments_of_gaussian(&q, &parts.polynomials, degree, integrand),
                 Rule::PolynomialByGaussian,
             )
         };
@@ -65,35 +67,69 @@ impl Integrator<'_> {
         Ok((if_less(self.g, q.a, zero, growing, value), rule))
     }
 
-    /// q at s = ±h.
-    fn exponents(&mut self, negated: Id) -> [Id; 2] {
-        let half = self.path.half;
-        let back = self.g.neg(half);
-        [back, half].map(|s| self.at(&[negated], s)[0])
-    }
-
-    /// L e^(-min q) mass(c, w)/(2w): mass is ∫ e^(-u²) from c - w to c + w over its greatest value.
-    fn mass(&mut self, q: &Quadratic, negated: Id) -> Id {
+    /// Half-width of the interval in u, kept from 0, u' by t, and u at both ends.
+    fn in_widths(&mut self, q: &Quadratic, least: f64) -> (Id, Id, [Id; 2]) {
         let half = call(self.g, Prim::Abs, self.path.half);
         let root = call(self.g, Prim::Sqrt, q.a);
         let width = mul(self.g, root, half);
-        let floor = self.g.real(LEAST_WIDTH);
-        let width = self.g.apply(Prim::Max, &[width, floor]);
-        let change = mul(self.g, q.b, half);
-        let centre = self.g.div(change, width);
+        let floor = self.g.real(least);
+        let wide = self.g.apply(Prim::Max, &[width, floor]);
+        let rate = self.g.div(wide, half);
+        (width, rate, q.slopes.map(|b| self.g.div(b, rate)))
+    }
+
+    /// |h| e^(-min q) mass(c, w)/w: mass is ∫ e^(-u²) from c - w to c + w over its greatest value. Of a long interval the
+    /// part that is within 7 widths of its greatest value is enough.
+    fn mass(&mut self, q: &Quadratic) -> Id {
+        let (narrow, rate, places) = self.in_widths(q, LEAST_WIDTH);
+        let [low, high] = [Prim::Min, Prim::Max].map(|p| self.g.apply(p, &places));
+        let zero = self.g.real(0.0);
+        // the place of the greatest value: 0, or the end that is nearer
+        let nearest = self.g.apply(Prim::Max, &[low, zero]);
+        let nearest = self.g.apply(Prim::Min, &[nearest, high]);
+        let far = self.g.real(ENOUGH);
+        let (least, most) = (self.g.sub(nearest, far), self.g.add(nearest, far));
+        let low = self.g.apply(Prim::Max, &[low, least]);
+        let high = self.g.apply(Prim::Min, &[high, most]);
+        let (sum, difference) = (self.g.add(low, high), self.g.sub(high, low));
+        let (centre, width) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, difference));
+        // of an interval that is not long its own width, which the difference of the ends would cancel
+        let half = call(self.g, Prim::Abs, self.path.half);
+        let own = mul(self.g, rate, half);
+        let middle = self.g.div(q.b, rate);
+        let (centre, width) = (
+            if_less(self.g, narrow, far, middle, centre),
+            if_less(self.g, narrow, far, own, width),
+        );
         let mass = self.g.apply(Prim::GaussMassScaled, &[centre, width]);
-        let double = scale(self.g, 2.0, width);
-        let mean = self.g.div(mass, double);
-        let ends = self.exponents(negated);
-        let nearest = self.g.apply(Prim::Min, &ends);
         let depth = self.g.div(q.discriminant, q.a);
-        let (reach, size) = (mul(self.g, q.a, half), call(self.g, Prim::Abs, q.b));
-        let least = if_less(self.g, size, reach, depth, nearest);
-        let least = self.g.neg(least);
-        let top = call(self.g, Prim::Exp, least);
-        let value = mul(self.g, top, mean);
+        let end = self.g.apply(Prim::Min, &q.ends);
+        let product = self.g.mul(places[0], places[1]);
+        let exponent = if_less(self.g, product, zero, depth, end);
+        let fall = self.g.neg(exponent);
+        let top = call(self.g, Prim::Exp, fall);
+        let value = mul(self.g, top, mass);
+        let value = self.g.div(value, rate);
+        let sign = call(self.g, Prim::Sign, self.path.half);
+        let wide = mul(self.g, sign, value);
+        // a line along which the exponent does not change, and the empty interval
         let length = self.length_of_path();
-        mul(self.g, length, value)
+        let middle = self.g.neg(q.c);
+        let middle = call(self.g, Prim::Exp, middle);
+        let flat = mul(self.g, length, middle);
+        let change = self.change_of_exponent(q, half);
+        let least = self.g.real(LEAST_WIDTH);
+        if_less(self.g, change, least, flat, wide)
+    }
+
+    /// 2 |b h| + a h², which the exponent changes by at most.
+    fn change_of_exponent(&mut self, q: &Quadratic, half: Id) -> Id {
+        let slope = mul(self.g, q.b, half);
+        let slope = call(self.g, Prim::Abs, slope);
+        let slope = scale(self.g, 2.0, slope);
+        let curve = square(self.g, half);
+        let curve = mul(self.g, q.a, curve);
+        self.g.add(slope, curve)
     }
 
     /// Both sides of the centre by repeated integration by parts from their ends,
@@ -102,19 +138,12 @@ impl Integrator<'_> {
     fn moments_of_gaussian(
         &mut self,
         q: &Quadratic,
-        negated: Id,
         polynomials: &[Id],
         degree: u32,
         integrand: Id,
     ) -> Id {
         let half = call(self.g, Prim::Abs, self.path.half);
-        let root = call(self.g, Prim::Sqrt, q.a);
-        let width = mul(self.g, root, half);
-        let floor = self.g.real(LEAST_WIDTH_BESIDE);
-        let wide = self.g.apply(Prim::Max, &[width, floor]);
-        let rate = self.g.div(wide, half);
-        let change = mul(self.g, q.b, half);
-        let centre = self.g.div(change, wide);
+        let (_, rate, places) = self.in_widths(q, LEAST_WIDTH_BESIDE);
         let foot = self.g.div(q.b, q.a);
         let foot = self.g.neg(foot);
         let depth = self.g.div(q.discriminant, q.a);
@@ -126,40 +155,35 @@ impl Integrator<'_> {
         }
         let zero = self.g.real(0.0);
         let mut sum = zero;
-        for side in [1.0, -1.0] {
-            // the part of the interval on this side of the centre, nearer end first
-            for (end, sign) in [
-                (scale(self.g, -side, half), 1.0),
-                (scale(self.g, side, half), -1.0),
-            ] {
-                let offset = mul(self.g, rate, end);
-                let place = self.g.add(centre, offset);
-                let distance = scale(self.g, side, place);
+        let back = self.g.neg(self.path.half);
+        for (which, s) in [(0, back), (1, self.path.half)] {
+            for side in [1.0, -1.0] {
+                // on this side of the centre the tail from the nearer end counts, less that from the farther one
+                let distance = scale(self.g, side, places[which]);
                 let is_beyond = self.g.apply(Prim::Less, &[zero, distance]);
                 let x = self.g.apply(Prim::Max, &[distance, zero]);
-                let s = self.g.apply(Prim::Select, &[is_beyond, end, foot]);
-                let at_end = self.at(&[negated], end)[0];
-                let exponent = self.g.apply(Prim::Select, &[is_beyond, at_end, depth]);
+                let s = self.g.apply(Prim::Select, &[is_beyond, s, foot]);
+                let exponent = self
+                    .g
+                    .apply(Prim::Select, &[is_beyond, q.ends[which], depth]);
                 let values = self.at(&derivatives, s);
                 let tail = self.tail(&values, x, rate, side);
                 let fall = self.g.neg(exponent);
                 let size = call(self.g, Prim::Exp, fall);
                 let part = mul(self.g, size, tail);
+                let sign = if which == 0 { side } else { -side };
                 let part = scale(self.g, sign, part);
                 sum = add(self.g, sum, part);
             }
         }
         let far = self.g.div(sum, rate);
-        let sign = call(self.g, Prim::Sign, self.path.half);
-        let far = mul(self.g, sign, far);
+        let limit = f64::from(degree) + 2.0;
         let near = self.gauss(
             integrand,
-            nodes_for_exponential(f64::from(degree) + 2.0, degree as usize, NEAR) + 2,
+            nodes_for_exponential(limit, degree as usize, NEAR) + 2,
         );
-        let limit = self.g.real(f64::from(degree) + 2.0);
-        let (slope, curve) = (scale(self.g, 2.0, change), square(self.g, width));
-        let slope = call(self.g, Prim::Abs, slope);
-        let change = self.g.add(slope, curve);
+        let limit = self.g.real(limit);
+        let change = self.change_of_exponent(q, half);
         if_less(self.g, limit, change, far, near)
     }
 

@@ -8,6 +8,7 @@
 mod affine;
 mod algebraic;
 mod arithmetic;
+mod bessel;
 mod breaks;
 mod class;
 mod expand;
@@ -15,6 +16,7 @@ mod explain;
 mod exponential;
 mod field;
 mod gaussian;
+mod group;
 mod legendre;
 mod path;
 mod problem;
@@ -29,7 +31,7 @@ pub use breaks::MAX_BREAKS;
 pub use class::MAX_DEGREE;
 pub use expand::{MAX_FACTORS, MAX_TERMS};
 pub use explain::{Explanation, Told, explain};
-pub use exponential::MAX_DEGREE_BESIDE;
+pub use exponential::{MAX_DEGREE_BESIDE, MAX_WAVES};
 pub use field::{FieldIntegral, INPUTS, field_integral};
 pub use gaussian::MAX_DEGREE_BESIDE_GAUSSIAN;
 pub use legendre::{Node as QuadratureNode, gauss_legendre};
@@ -43,6 +45,7 @@ use smallvec::SmallVec;
 use arithmetic::{add, mul, scale};
 use class::Classes;
 use exponential::Parts;
+use group::Groups;
 use path::Body;
 use term::{Factor, Term};
 
@@ -168,13 +171,18 @@ impl<'g> Integrator<'g> {
             return Ok(self.polynomial(root, degree));
         }
         let terms = self.expand(root)?;
+        let known = self.numerical.len();
         let mut sum = self.g.real(0.0);
         let mut rest = self.g.real(0.0);
+        let mut groups = Groups::default();
         for term in terms {
             match self.term(&term) {
                 Ok(value) => {
                     let value = self.guarded(&term, value);
-                    sum = add(self.g, sum, value);
+                    match term.product {
+                        Some(product) => groups.push(product, term.clone(), value),
+                        None => sum = add(self.g, sum, value),
+                    }
                 }
                 Err(problem) if self.otherwise == Otherwise::Refuse => return Err(problem),
                 Err(problem) => {
@@ -188,6 +196,10 @@ impl<'g> Integrator<'g> {
                 return Err(self.problem(term.source, Reason::Bound("operations", MAX_NODES)));
             }
         }
+        // a product of which a part has no closed form is not taken as it is
+        let all_closed = self.numerical.len() == known;
+        let grouped = self.sum_of_groups(groups, all_closed);
+        sum = add(self.g, sum, grouped);
         if self.moves(rest) {
             let value = self.composite(rest);
             sum = add(self.g, sum, value);
@@ -345,6 +357,26 @@ impl<'g> Integrator<'g> {
         let leaves = self.path.coordinates.iter().map(|c| c.leaf);
         let values = self.path.middle();
         Body::new(self.g, &[id], leaves).at(self.g, &values)[0]
+    }
+
+    /// An expression at both ends of the path.
+    fn at_ends(&mut self, id: Id) -> [Id; 2] {
+        let leaves = self.path.coordinates.iter().map(|c| c.leaf);
+        let body = Body::new(self.g, &[id], leaves);
+        [0, 1].map(|which| {
+            let values = self.path.end(self.g, which);
+            body.at(self.g, &values)[0]
+        })
+    }
+
+    /// Expressions at t, by way of the origin.
+    fn at_place(&mut self, roots: &[Id], t: Id) -> SmallVec<[Id; 4]> {
+        let leaves = self.path.coordinates.iter().map(|c| c.leaf);
+        let body = Body::new(self.g, roots, leaves);
+        let whole = self.path.clone();
+        let seen = whole.from_origin(self.g);
+        let values = seen.point(self.g, t);
+        body.at(self.g, &values)
     }
 
     /// Expressions at s.

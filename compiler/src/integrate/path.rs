@@ -3,36 +3,41 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
-use super::arithmetic::{add, mul};
+use super::arithmetic::{add, mul, scale, sub};
 use crate::ir::{Binder, Graph, Id, Op};
 
-/// A coordinate that changes along the line: mid + s slope.
+/// A coordinate that changes along the line: origin + t slope.
 #[derive(Clone, Copy, Debug)]
 pub struct Coordinate {
     /// The leaf that stands for it in the integrand.
     pub leaf: Id,
+    /// Its value at t = 0.
+    pub origin: Id,
     /// Its value in the middle of the interval.
     pub mid: Id,
-    /// Its rate of change by s.
+    /// Its rate of change.
     pub slope: Id,
 }
 
-/// A line with an interval: s runs from -half to half. A negative half turns the sign of the integral.
+/// A line with an interval: t = middle + s, where s runs from -half to half. A negative half turns the sign of the
+/// integral.
 #[derive(Clone, Debug)]
 pub struct Path {
     /// What changes along it.
     pub coordinates: Vec<Coordinate>,
+    /// t at the ends.
+    pub ends: [Id; 2],
+    /// t in the middle.
+    pub middle: Id,
     /// Half the length of the interval, with its sign.
     pub half: Id,
 }
 
 impl Path {
-    /// The line t = mid + s of one variable, from a to b.
+    /// The line of one variable, from a to b.
     pub fn of_variable(g: &mut Graph, leaf: Id, a: Id, b: Id) -> Self {
-        let (mid, half) = middle(g, a, b);
-        let slope = g.real(1.0);
-        let coordinates = vec![Coordinate { leaf, mid, slope }];
-        Self { coordinates, half }
+        let (origin, slope) = (g.real(0.0), g.real(1.0));
+        Self::of_lines(g, &[(leaf, origin, slope)], [a, b])
     }
 
     /// The ray origin + t direction of space from t = a to t = b.
@@ -43,37 +48,64 @@ impl Path {
         direction: &[Id],
         ends: (Id, Id),
     ) -> Self {
-        let (mid, half) = middle(g, ends.0, ends.1);
-        let mut coordinates = Vec::new();
-        for ((&leaf, &o), &slope) in leaves.iter().zip(origin).zip(direction) {
-            let step = g.mul(mid, slope);
-            let mid = g.add(o, step);
-            coordinates.push(Coordinate { leaf, mid, slope });
-        }
-        Self { coordinates, half }
+        let lines: Vec<(Id, Id, Id)> = leaves
+            .iter()
+            .zip(origin)
+            .zip(direction)
+            .map(|((&leaf, &o), &d)| (leaf, o, d))
+            .collect();
+        Self::of_lines(g, &lines, [ends.0, ends.1])
     }
 
-    /// The part of the line whose middle is at s = `middle`.
-    pub fn part(&self, g: &mut Graph, middle: Id, half: Id) -> Self {
-        let shifted = |c: &Coordinate| {
-            let step = mul(g, middle, c.slope);
-            Coordinate {
-                mid: add(g, c.mid, step),
-                ..*c
-            }
+    /// Each a leaf, its value at t = 0, and its slope.
+    fn of_lines(g: &mut Graph, lines: &[(Id, Id, Id)], ends: [Id; 2]) -> Self {
+        // from half ends, so that neither overflows
+        let halves = ends.map(|end| scale(g, 0.5, end));
+        let (middle, half) = (add(g, halves[0], halves[1]), sub(g, halves[1], halves[0]));
+        let coordinate = |&(leaf, origin, slope): &(Id, Id, Id)| Coordinate {
+            leaf,
+            origin,
+            mid: line(g, origin, middle, slope),
+            slope,
         };
         Self {
-            coordinates: self.coordinates.iter().map(shifted).collect(),
+            coordinates: lines.iter().map(coordinate).collect(),
+            ends,
+            middle,
             half,
         }
     }
 
-    /// The coordinates at s.
+    /// The part of the line between two other ends.
+    pub fn between(&self, g: &mut Graph, ends: [Id; 2]) -> Self {
+        let lines: Vec<(Id, Id, Id)> = self
+            .coordinates
+            .iter()
+            .map(|c| (c.leaf, c.origin, c.slope))
+            .collect();
+        Self::of_lines(g, &lines, ends)
+    }
+
+    /// The same line, seen from t = 0.
+    pub fn from_origin(&self, g: &mut Graph) -> Self {
+        let mut out = self.clone();
+        for c in &mut out.coordinates {
+            c.mid = c.origin;
+        }
+        out.middle = g.real(0.0);
+        out
+    }
+
+    /// The coordinates at s, which is measured from the middle.
     pub fn point(&self, g: &mut Graph, s: Id) -> Vec<(Id, Id)> {
-        let at = |c: &Coordinate| {
-            let step = mul(g, s, c.slope);
-            (c.leaf, add(g, c.mid, step))
-        };
+        let at = |c: &Coordinate| (c.leaf, line(g, c.mid, s, c.slope));
+        self.coordinates.iter().map(at).collect()
+    }
+
+    /// The coordinates at an end, from its t and not by way of the middle.
+    pub fn end(&self, g: &mut Graph, which: usize) -> Vec<(Id, Id)> {
+        let t = self.ends[which];
+        let at = |c: &Coordinate| (c.leaf, line(g, c.origin, t, c.slope));
         self.coordinates.iter().map(at).collect()
     }
 
@@ -82,17 +114,16 @@ impl Path {
         self.coordinates.iter().map(|c| (c.leaf, c.mid)).collect()
     }
 
-    /// The direction for a derivative by s.
+    /// The direction for a derivative by t.
     pub fn seeds(&self) -> Vec<(Id, Id)> {
         self.coordinates.iter().map(|c| (c.leaf, c.slope)).collect()
     }
 }
 
-/// Middle and half length of an interval, both from half ends, so that neither overflows.
-fn middle(g: &mut Graph, a: Id, b: Id) -> (Id, Id) {
-    let half = g.real(0.5);
-    let (a, b) = (g.mul(half, a), g.mul(half, b));
-    (g.add(a, b), g.sub(b, a))
+/// base + t slope
+fn line(g: &mut Graph, base: Id, t: Id, slope: Id) -> Id {
+    let step = mul(g, t, slope);
+    add(g, base, step)
 }
 
 /// Expressions that are to be copied with their coordinates replaced, once for each node of a rule.

@@ -4,12 +4,14 @@ use super::Integrator;
 use super::arithmetic::{add, div, mul, scale, square, sub, total};
 use crate::ir::{Id, Op, Prim};
 
-/// mid + s slope.
+/// mid + s slope, s from the middle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Affine {
     /// Value in the middle.
     pub mid: Id,
-    /// Change by s.
+    /// Values at both ends.
+    pub ends: [Id; 2],
+    /// Change by t.
     pub slope: Id,
 }
 
@@ -22,8 +24,16 @@ pub struct Quadratic {
     pub b: Id,
     /// Value in the middle.
     pub c: Id,
-    /// a c - b². Of a sum of squares |u + s v|² with a constant k it is k |v|² + |u × v|², which does not cancel.
+    /// a c - b². Of a sum of squares |u + t v|² with a constant k it is k |v|² + |u × v|², which does not cancel.
     pub discriminant: Id,
+    /// c - a h². Of a sum of squares it is k + u₀ · u₁ with the values at both ends, which does not cancel.
+    pub chord: Id,
+    /// Values at both ends.
+    pub ends: [Id; 2],
+    /// Half the slopes at both ends.
+    pub slopes: [Id; 2],
+    /// t where the slope is 0.
+    pub foot: Id,
 }
 
 /// What a polynomial of degree 2 is a sum of.
@@ -46,7 +56,8 @@ impl Integrator<'_> {
         let mid = self.at_middle(id);
         let slope = self.slope(id);
         let slope = self.at_middle(slope);
-        Affine { mid, slope }
+        let ends = self.at_ends(id);
+        Affine { mid, slope, ends }
     }
 
     /// The coefficients of an expression of degree 2 or less.
@@ -56,17 +67,56 @@ impl Integrator<'_> {
         let curvature = self.slope(slope);
         let (slope, curvature) = (self.at_middle(slope), self.at_middle(curvature));
         let (b, a) = (scale(self.g, 0.5, slope), scale(self.g, 0.5, curvature));
+        let whole = self.path.clone();
+        self.path = whole.from_origin(self.g);
         let found = self.squares(id).and_then(|s| self.discriminant(&s));
+        let rate = self.slope(id);
+        let at_origin = self.at_middle(rate);
+        self.path = whole;
+        let foot = scale(self.g, -0.5, at_origin);
+        let foot = self.g.div(foot, a);
         let discriminant = found.unwrap_or_else(|| {
             let (ac, bb) = (mul(self.g, a, c), square(self.g, b));
             sub(self.g, ac, bb)
         });
+        let chord = match self.chord_of_squares(id) {
+            Some(chord) => chord,
+            None => {
+                let reach = square(self.g, self.path.half);
+                let reach = mul(self.g, a, reach);
+                sub(self.g, c, reach)
+            }
+        };
         Quadratic {
             a,
             b,
             c,
             discriminant,
+            chord,
+            ends: self.at_ends(id),
+            slopes: self.at_ends(rate).map(|s| scale(self.g, 0.5, s)),
+            foot,
         }
+    }
+
+    /// c - a h² = Σ w u₀ u₁ + Σ ℓ(m) + k.
+    fn chord_of_squares(&mut self, id: Id) -> Option<Id> {
+        let found = self.squares(id)?;
+        let mut sum = self.g.real(0.0);
+        for (w, x) in &found.squares {
+            let product = mul(self.g, x.ends[0], x.ends[1]);
+            let part = mul(self.g, *w, product);
+            sum = add(self.g, sum, part);
+        }
+        for (w, x) in &found.linear {
+            let part = mul(self.g, *w, x.mid);
+            sum = add(self.g, sum, part);
+        }
+        for &(w, c) in &found.constant {
+            let part = mul(self.g, w, c);
+            sum = add(self.g, sum, part);
+        }
+        Some(sum)
     }
 
     /// Whether an expression is a sum of squares with positive weights and constants that are not negative.
@@ -179,6 +229,14 @@ impl Integrator<'_> {
             (Prim::Div, &[a, b]) if !self.moves(b) => {
                 let weight = div(self.g, weight, b);
                 stack.push((a, weight));
+            }
+            // u v = ((u + v)² - (u - v)²)/4
+            (Prim::Mul, &[a, b]) => {
+                let (sum, difference) = (add(self.g, a, b), sub(self.g, a, b));
+                let quarter = scale(self.g, 0.25, weight);
+                self.push_square(sum, quarter, out)?;
+                let less = self.g.neg(quarter);
+                self.push_square(difference, less, out)?;
             }
             (Prim::PowInt(2), &[a]) => {
                 let inner = self.g.node(a).clone();

@@ -33,14 +33,16 @@ impl Integrator<'_> {
         let whole = self.path.clone();
         let binder = self.g.binder();
         let (sum, counter) = (self.g.new_state(binder, Ty::Real), self.g.counter(binder));
-        // the middle of panel k is at h ((2 k + 1)/n - 1)
-        let width = 1.0 / f64::from(PANELS);
-        let step = scale(self.g, 2.0 * width, counter);
-        let offset = self.g.real(width - 1.0);
-        let part = self.g.add(step, offset);
-        let middle = self.g.mul(whole.half, part);
-        let half = scale(self.g, width, whole.half);
-        self.path = whole.part(self.g, middle, half);
+        // panel k goes from h (2 k/n - 1) to h (2 (k + 1)/n - 1) around the middle
+        let width = 2.0 / f64::from(PANELS);
+        let ends = [0.0, 1.0].map(|k| {
+            let step = scale(self.g, width, counter);
+            let offset = self.g.real(width * k - 1.0);
+            let part = self.g.add(step, offset);
+            let s = self.g.mul(whole.half, part);
+            self.g.add(whole.middle, s)
+        });
+        self.path = whole.between(self.g, ends);
         let panel = self.gauss(root, NODES);
         self.path = whole;
         let next = self.g.add(sum, panel);

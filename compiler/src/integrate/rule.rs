@@ -91,7 +91,8 @@ pub static RULES: [Record; 22] = [
     Record {
         rule: Rule::PolynomialByWave,
         name: "polynomial by exponential or wave",
-        equation: "∫ p e^(λs) = [e^(λs) Σ (-1)ᵏ p⁽ᵏ⁾/λᵏ⁺¹] at both ends; nodes of the product where |λh| < degree + 2",
+        equation: "∫ p e^(iδs) = L Σ cₙ iⁿ jₙ(δh), p(h x) = Σ cₙ Pₙ(x), with iₙ of an exponential where |βh| < degree + 2; \
+                   else, and beside both, [e^(λs) Σ (-1)ᵏ p⁽ᵏ⁾/λᵏ⁺¹] at both ends",
         bound: "degree up to 16; the nodes are right to 1e-12",
         source: "NIST DLMF 4.10(i), 4.26(ii)",
     },

@@ -1,10 +1,13 @@
 //! Integrals of sums over a counter: the sum of the integrals of the terms.
 
 use super::arithmetic::mul;
-use super::path::cone;
+use super::path::{Body, cone};
 use super::rule::Rule;
-use super::{Integrator, Problem, Reason};
+use super::{Integrator, Otherwise, Problem, Reason};
 use crate::ir::{Id, Loop, Op, Prim, State, Ty};
+
+/// Greatest number of terms that are written out where the term alone has no closed form.
+const MAX_UNROLLED: f64 = 16.0;
 
 impl Integrator<'_> {
     /// ∫ Σ fₖ = Σ ∫ fₖ for the result of a loop that adds up terms, whose number is constant along the path.
@@ -12,7 +15,21 @@ impl Integrator<'_> {
         let Some((it, state, term)) = self.sum_of_terms(result) else {
             return Err(self.problem(result, Reason::Loop));
         };
-        let integral = self.whole(term)?;
+        let known = (self.parts.len(), self.numerical.len());
+        let otherwise = std::mem::replace(&mut self.otherwise, Otherwise::Refuse);
+        let closed = self.whole(term);
+        self.otherwise = otherwise;
+        let integral = match closed {
+            Ok(integral) => integral,
+            Err(_) => {
+                self.parts.truncate(known.0);
+                self.numerical.truncate(known.1);
+                if let Some(sum) = self.unrolled(&it, state, term) {
+                    return Ok((self.whole(sum)?, Rule::Series));
+                }
+                self.whole(term)?
+            }
+        };
         let length = self.length_of_path();
         let init = mul(self.g, length, state.init);
         let leaf = self.g.new_state(it.binder, Ty::Real);
@@ -23,6 +40,25 @@ impl Integrator<'_> {
         };
         let repeated = self.g.repeat(&repeated);
         Ok((self.g.result(repeated, leaf), Rule::Series))
+    }
+
+    /// A sum of a few terms written out.
+    fn unrolled(&mut self, it: &Loop, state: State, term: Id) -> Option<Id> {
+        let count = self
+            .g
+            .as_real(it.count)
+            .filter(|&n| (0.0..=MAX_UNROLLED).contains(&n))?;
+        let counter = self.g.counter(it.binder);
+        let body = Body::new(self.g, &[term], std::iter::once(counter));
+        let mut sum = state.init;
+        let mut k = 0.0;
+        while k < count.floor() {
+            let value = self.g.real(k);
+            let term = body.at(self.g, &[(counter, value)])[0];
+            sum = self.g.add(sum, term);
+            k += 1.0;
+        }
+        Some(sum)
     }
 
     /// The loop, the state that is added up, and what is added.

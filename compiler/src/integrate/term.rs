@@ -39,6 +39,8 @@ pub struct Term {
     pub guards: SmallVec<[(Id, bool); 2]>,
     /// The expression that it comes from.
     pub source: Id,
+    /// The product that was written out, of which it is one of several terms.
+    pub product: Option<Id>,
 }
 
 impl Term {
@@ -49,6 +51,7 @@ impl Term {
             factors: SmallVec::new(),
             guards: SmallVec::new(),
             source: coefficient,
+            product: None,
         }
     }
 
@@ -59,6 +62,7 @@ impl Term {
             factors: SmallVec::from_slice(&[factor]),
             guards: SmallVec::new(),
             source,
+            product: None,
         }
     }
 

@@ -21,7 +21,7 @@ fn series(n: u8, x: f64, sign: f64) -> f64 {
     first * sum
 }
 
-/// jₙ(x): the series where it does not cancel, from x = n on the recurrence (DLMF 10.51.1) upwards, between the two
+/// jₙ(x): the series where it does not cancel, from x = 1.3 n on the recurrence (DLMF 10.51.1) upwards, between the two
 /// downwards (Miller's algorithm, DLMF 3.6.ii).
 pub fn spherical_j(n: u8, x: f64) -> f64 {
     let order = f64::from(n);
@@ -36,7 +36,7 @@ pub fn spherical_j(n: u8, x: f64) -> f64 {
         sinc(a)
     } else if a * a < 2.0 * order + 3.0 {
         series(n, a, -1.0)
-    } else if a >= order {
+    } else if a >= 1.3 * order {
         upwards(n, a)
     } else {
         downwards(n, a)
@@ -58,7 +58,7 @@ fn upwards(n: u8, x: f64) -> f64 {
 
 fn downwards(n: u8, x: f64) -> f64 {
     let (mut value, mut above, mut wanted) = (1e-200, 0.0, 0.0);
-    for k in (0..n + 40).rev() {
+    for k in (0..n + n / 2 + 40).rev() {
         // the orders k + 1 and k + 2 give k
         (value, above) = ((2.0 * f64::from(k) + 3.0) / x * value - above, value);
         if k == n {

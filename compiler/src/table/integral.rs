@@ -472,7 +472,8 @@ fn erfcx_partial(g: &mut Graph, args: &[Id], value: Id, _: usize) -> Id {
     scaled(g, -2.0 * f64::from(n), next)
 }
 
-/// By w: the integrand at both ends. By c: their difference, as sign(c w) e^{-(|c| - |w|)²} (e^{-4|c w|} - 1).
+/// By w: the integrand at both ends. By c: their difference, as sign(c w) e^{-(|c| - |w|)²} (e^{-4|c w|} - 1),
+/// or where c w is small a form that is smooth there.
 fn mass_partial(g: &mut Graph, args: &[Id], _: Id, k: usize) -> Id {
     let (c, w) = (args[0], args[1]);
     if k == 1 {
@@ -484,18 +485,26 @@ fn mass_partial(g: &mut Graph, args: &[Id], _: Id, k: usize) -> Id {
     let sizes = [c, w].map(|a| g.apply(Prim::Abs, &[a]));
     let turned = g.neg(sizes[1]);
     let near = g.apply(Prim::GaussOfSum, &[sizes[0], turned]);
-    let fall = ends_difference(g, c, w);
-    g.mul(near, fall)
-}
-
-/// sign(c w) (e^{-4|c w|} - 1)
-fn ends_difference(g: &mut Graph, c: Id, w: Id) -> Id {
     let product = g.mul(c, w);
     let size = call(g, Prim::Abs, product);
     let steepness = scaled(g, -4.0, size);
     let fall = call(g, Prim::Expm1, steepness);
     let sign = call(g, Prim::Sign, product);
-    g.mul(sign, fall)
+    let fall = g.mul(sign, fall);
+    let far = g.mul(near, fall);
+    let close = difference_near_zero(g, c, w, product);
+    let limit = g.real(0.25);
+    where_less(g, size, limit, close, far)
+}
+
+/// -2 e^{-c²} e^{-w²} sinh(2 c w), smooth where the product is 0.
+fn difference_near_zero(g: &mut Graph, c: Id, w: Id, product: Id) -> Id {
+    let bells = [c, w].map(|x| g.apply(Prim::Gauss, &[x]));
+    let bells = g.mul(bells[0], bells[1]);
+    let angle = scaled(g, 2.0, product);
+    let sinh = call(g, Prim::Sinh, angle);
+    let wave = scaled(g, -2.0, sinh);
+    g.mul(bells, wave)
 }
 
 /// Where the interval holds 0 that of the mass; else its first moment M gives both, by c -2 sign(c w) M, by w

@@ -103,7 +103,10 @@ fn second(word: &'static str, prim: Prim, way: Way, source: &str) -> Second {
     }
 }
 
-const REFERENCES: &str = include_str!("../../data/functions/second.tsv");
+const REFERENCES: &str = concat!(
+    include_str!("../../data/functions/second.tsv"),
+    include_str!("../../data/functions/integral_second.tsv")
+);
 
 /// The references of a function, asked about in some way: arguments and second derivatives.
 fn references(word: &str, way: &str) -> Vec<(Vec<f64>, Vec<Expected>)> {

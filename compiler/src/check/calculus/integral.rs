@@ -12,6 +12,9 @@ use crate::types::Type;
 /// Number of steps that an integral counts as among nested loops: as many as a quadrature has panels.
 const STEPS: u32 = 16;
 
+/// Greatest number of integrals of a program.
+pub const MAX_INTEGRALS: usize = 100;
+
 /// An integral as it is written.
 #[derive(Clone, Copy)]
 struct Written<'a> {
@@ -89,6 +92,12 @@ impl<'a> Builder<'a> {
     }
 
     fn integral_of(&mut self, written: Written, value: &Value, leaf: Id, ends: (Id, Id)) -> Value {
+        self.integrals += 1;
+        if self.integrals > MAX_INTEGRALS {
+            let message =
+                format!("more than {MAX_INTEGRALS} integrals, those of called functions each time");
+            return self.report(Diagnostic::error("too-large", written.span, message));
+        }
         let path = Path::of_variable(&mut self.graph, leaf, ends.0, ends.1);
         let mut results: SmallVec<[Id; 4]> = SmallVec::new();
         for id in value.ids() {
