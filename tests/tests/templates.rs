@@ -6,7 +6,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Function, Module, ScalarKind, Statement, TypeInner, VectorSize};
 use pullback_compiler::link::{Linker, Provider, Sources, is_stub};
 use pullback_compiler::lower::{LowerError, Tier};
-use pullback_compiler::scene::{Scene, SettingKind, Space, scene, scenes};
+use pullback_compiler::scene::{ENTRIES, Scene, SettingKind, Space, TABLE, scene, scenes};
 use pullback_tests::corpus::{Source, files, read, root};
 use pullback_tests::units::{FIELD_STUBS, copies, evaluations, finite_differences};
 
@@ -77,7 +77,7 @@ fn the_libraries_are_valid_and_whole() {
 }
 
 /// What the drawing library leaves to the formula and to the template.
-const OPEN: [&str; 3] = ["field_ray", "field_grad", "seen_bound"];
+const OPEN: [&str; 4] = ["field_ray", "field_grad", "seen_bound", "colour_entry"];
 
 /// Fills no stub.
 struct Nothing;
@@ -525,6 +525,13 @@ fn settings_of(scene: &Scene) -> Result<(), String> {
                 let ty = module.types[m.ty].inner.clone();
                 (m.name.clone().unwrap_or_default(), ty, m.offset)
             }));
+        }
+    }
+    if let Some(k) = members.iter().position(|m| m.0 == TABLE) {
+        let (_, table, _) = members.remove(k);
+        let size = table.size(module.to_ctx());
+        if scene.setting("palette").is_none() || size as usize != 16 * ENTRIES {
+            return Err("a table of colours that no palette fills".into());
         }
     }
     for (name, ty, _) in &members {

@@ -29,6 +29,7 @@ struct Settings {
     color_3: vec3f,
     color_4: vec3f,
     key: f32,
+    colours: array<vec4f, 129>,  // of a named palette
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -53,6 +54,7 @@ fn sample_window() -> f32 { return 0.0; }
 fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
 fn infinite_colour(pixel: vec2f, colour: vec3f) -> vec3f { return vec3f(); }
 fn oklch_wheel(t: f32) -> vec3f { return vec3f(); }
+fn mapped_colour(u: f32) -> vec3f { return vec3f(); }
 fn sequential_ramp(t: f32) -> vec3f { return vec3f(); }
 fn diverging_ramp(t: f32) -> vec3f { return vec3f(); }
 fn normal_cdf(x: f32) -> f32 { return 0.0; }
@@ -67,6 +69,10 @@ const REACH: f32 = 5.2;
 // is then below exp(-2π² 0.8²) = 3.3e-6.
 const UNRESOLVED: f32 = 0.8;
 
+fn colour_entry(k: u32) -> vec3f {
+    return settings.colours[k].rgb;
+}
+
 fn period() -> f32 {
     return select(settings.period, 1.0, settings.period <= 1e-37);
 }
@@ -80,7 +86,8 @@ fn stripe_colour(k: i32) -> vec3f {
         case 1u: { return sequential_ramp(0.12 + 0.88 * place); }
         case 2u: { return diverging_ramp(2.0 * place - 1.0); }
         case 3u: { return oklch_wheel(f32(index) / f32(count)); }
-        default: {}
+        case 0u: {}
+        default: { return mapped_colour(place); }
     }
     switch index % 4 {
         case 0: { return settings.color_1; }

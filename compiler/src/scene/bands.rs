@@ -1,5 +1,6 @@
 //! The settings of `bands`.
 
+use super::colour_map::value_palette;
 use super::{Scene, SettingSpec, Space};
 
 const ANY: f64 = f64::INFINITY;
@@ -33,7 +34,7 @@ pub const SCENE: Scene = Scene {
         ),
         SettingSpec::choice(
             "palette",
-            &["own", "sequential", "diverging", "wheel"],
+            value_palette!["own", "sequential", "diverging", "wheel"],
             0.0,
             "where the colours come from",
         ),

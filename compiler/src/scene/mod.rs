@@ -3,6 +3,7 @@
 mod bands;
 mod camera;
 mod checker;
+mod colour_map;
 mod combination;
 mod cutaway;
 mod domain;
@@ -18,6 +19,7 @@ mod slices;
 mod space;
 mod sphere;
 mod surface;
+mod twilight;
 mod volume;
 mod volumecut;
 
@@ -26,6 +28,7 @@ use std::sync::OnceLock;
 use naga::Module;
 use rustc_hash::FxHashMap;
 
+pub use colour_map::{ENTRIES, TABLE, Table, colour_map, setting_component};
 pub use combination::{Conflict, conflicts};
 pub use setting::{SettingKind, SettingSpec};
 

@@ -137,7 +137,12 @@ impl SettingSpec {
     /// The colours of the argument of a complex number.
     #[must_use]
     pub const fn wheel(doc: &'static str) -> Self {
-        Self::choice("palette", &["cubehelix", "oklch", "hsv"], 0.0, doc)
+        Self::choice(
+            "palette",
+            &["cubehelix", "oklch", "hsv", "twilight"],
+            0.0,
+            doc,
+        )
     }
 
     /// The height of the colour key; 0: none. `doc` says what the key shows.

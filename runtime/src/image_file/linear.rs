@@ -204,7 +204,7 @@ mod tests {
         // by the same program, of the channels divided by alpha
         let expected = [
             [0, 48192, 65535, 65535],
-            [3387, 48192, 65535, 32768],
+            [3323, 48192, 65535, 32768],
             [0, 847, 32768, 65535],
             [0, 0, 0, 0],
         ];
