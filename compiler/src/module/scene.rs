@@ -60,7 +60,13 @@ impl SceneModule {
     /// # Errors
     /// As [`Self::new`].
     pub fn link(picture: &Picture, tier: impl Into<Tier>) -> Result<Module, ModuleError> {
-        Self::splice(picture.scene.module(), &picture.formula, tier.into())
+        let colour = picture.colour.as_ref();
+        Self::splice_both(
+            picture.scene.module(),
+            &picture.formula,
+            colour,
+            tier.into(),
+        )
     }
 
     /// [`Self::link`] for any template.
@@ -68,10 +74,20 @@ impl SceneModule {
     /// # Errors
     /// As [`Self::new`].
     pub fn splice(template: &Module, formula: &Formula, tier: Tier) -> Result<Module, ModuleError> {
+        Self::splice_both(template, formula, None, tier)
+    }
+
+    fn splice_both(
+        template: &Module,
+        formula: &Formula,
+        colour: Option<&Formula>,
+        tier: Tier,
+    ) -> Result<Module, ModuleError> {
         let sources = Sources::get(tier);
         let mut linker = Linker::new(vec![template, sources.entry, sources.shared, sources.math]);
         let mut demand = Demand {
             formula,
+            colour,
             precision: tier.precision,
         };
         linker.link_entry_points(1, &mut demand)?;

@@ -7,6 +7,7 @@ mod cutaway;
 mod drawing;
 mod extremes;
 mod glow;
+mod lights;
 mod lines;
 mod nested;
 mod projection;
