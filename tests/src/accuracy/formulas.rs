@@ -88,6 +88,7 @@ const GALLERY: [(&str, &str, &str); 60] = gallery![
     "newton",
     "newton-basins",
     "norms",
+    "orbit-trap",
     "orbital",
     "parabolic",
     "peaks",
