@@ -1,8 +1,8 @@
 // bands: a real function of the plane as stripes of flat colours, like a map of heights.
 //
 // Stripe k is where k ≤ (f - start) / period < k + 1; its colour is the one with the number k mod count. Each sample is
-// the exact mean of the stripes under a Gaussian footprint, in linear light, for f that is linear across it: a sum of
-// one step for each edge. Where all colours lie under the footprint it is their mean.
+// the exact mean of the stripes under a Gaussian footprint, which is given in pixels, in linear light, for f that is linear
+// across it: a sum of one step for each edge. Where all colours lie under the footprint it is their mean.
 //
 // An undefined value (NaN) is a quiet grey hatch, an infinity the mean colour with a hatch of the other slope. A constant is
 // the colour of its stripe.
@@ -50,7 +50,6 @@ fn is_nan(x: f32) -> bool { return false; }
 fn is_inf(x: f32) -> bool { return false; }
 fn length2_safe(v: vec2f) -> f32 { return 0.0; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
-fn sample_window() -> f32 { return 0.0; }
 fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
 fn infinite_colour(pixel: vec2f, colour: vec3f) -> vec3f { return vec3f(); }
 fn oklch_wheel(t: f32) -> vec3f { return vec3f(); }
@@ -137,7 +136,7 @@ fn colour_of(jet: vec3f, pixel: vec2f) -> vec3f {
     var spread = 0.0;
     if !(is_nan(jet.x) || is_nan(jet.y)) {
         let rate = min(length2_safe(jet.xy), 1e37) * view.pixel;
-        spread = rate / period() * settings.footprint * sample_window();
+        spread = rate / period() * settings.footprint;
     }
     return filtered_colour((jet.z - settings.start) / period(), spread);
 }

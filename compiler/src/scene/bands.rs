@@ -42,7 +42,7 @@ pub const SCENE: Scene = Scene {
             "footprint",
             0.5,
             (0.05, 8.0),
-            "standard deviation of a sample's Gaussian filter, in its share of a pixel",
+            "pixels, standard deviation of the Gaussian filter, however many samples a pixel has",
         ),
         SettingSpec::colour("color_1", [0.012, 0.036, 0.095], "of `own`, linear rgb"),
         SettingSpec::colour("color_2", [0.055, 0.235, 0.330], "of `own`, linear rgb"),

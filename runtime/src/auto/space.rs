@@ -158,11 +158,11 @@ impl<'a, 'e> Room<'a, 'e> {
         self.on_plane(active, POINTS, Subject::Drawn);
         let [reference, ..] = self.setting("reference");
         let planes = self.setting("planes");
-        for k in 0..3 {
+        for (k, plane) in planes.into_iter().enumerate() {
             let n = [0, 1, 2].map(|c| f64::from(u8::from(c == k)));
             let places: &[f64] = match reference as u32 {
                 0 => &[-1.0, 1.0],
-                1 => &[planes[k]],
+                1 => &[plane],
                 _ => &[],
             };
             for &place in places {
