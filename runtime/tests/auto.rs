@@ -161,3 +161,134 @@ fn single_precision_is_not_enough_where_digits_of_the_point_are_lost() {
     expect(&verdict, ["seen", "seen", "good", "good"]);
     assert!(verdict.precision.format().is_wide(), "{verdict}");
 }
+
+// What is visible decides, and each scene has its own: where x > 1, f below is noise in single precision.
+
+/// The outcome of `accurate` for a scene, or of `fast` where that is good already.
+fn single(show: &str) -> Option<&'static str> {
+    let noise = "f(x, y, z) = if x > 1 then x + 0.2 sin(10000000 + y + z) else x\n";
+    let verdict = verdict(&format!("{noise}show {show}"), [0.0, 0.0], 2.0)?;
+    let fast = outcome(&verdict, Precision::Fast);
+    println!("{show}: {verdict}");
+    Some(if fast == "good" {
+        fast
+    } else {
+        outcome(&verdict, Precision::Accurate)
+    })
+}
+
+/// Holds that single precision is good for one picture, and seen to fail in another.
+fn tells_apart(good: &str, seen: &str) {
+    if let Some(found) = single(good) {
+        assert_eq!(found, "good", "{good}");
+    }
+    if let Some(found) = single(seen) {
+        assert_eq!(found, "seen", "{seen}");
+    }
+}
+
+#[test]
+fn of_slices_the_planes_are_compared() {
+    tells_apart(
+        "slices(f) { axis = (1, 0, 0), position = -0.5, reference = none }",
+        "slices(f) { axis = (1, 0, 0), position = 0.7, reference = none }",
+    );
+    // the walls behind have it in their colours, planes in the middle do not
+    tells_apart(
+        "slices(f) { axis = (1, 0, 0), reference = planes, planes = (-0.4, 0, 0), box = (0.9, 2, 2) }",
+        "slices(f) { axis = (1, 0, 0), position = -0.5, reference = walls }",
+    );
+}
+
+#[test]
+fn of_nested_surfaces_every_level_is_compared() {
+    tells_apart(
+        "nested(f) { level = -0.5, spacing = 0.3, count = 3, box = (0.95, 2, 2) }",
+        "nested(f) { level = 0, spacing = 0.6, count = 5 }",
+    );
+}
+
+#[test]
+fn of_a_cutaway_what_is_left_is_compared() {
+    tells_apart(
+        "cutaway(f) { normal = (1, 0, 0), position = 0.17 }",
+        "cutaway(f) { normal = (-1, 0, 0), position = 0.17, spacing = 0.6, count = 5 }",
+    );
+    // no level is out there, but the cut has contour lines
+    tells_apart(
+        "cutaway(f) { normal = (1, 0, 0), position = 0.17, count = 1 }",
+        "cutaway(f) { normal = (0, 0, 1), position = 0.2, count = 1 }",
+    );
+}
+
+#[test]
+fn of_volumes_what_can_be_seen_is_compared() {
+    tells_apart(
+        "volume(f) { signs = negative }",
+        "volume(f) { signs = positive }",
+    );
+    tells_apart(
+        "volumecut(f) { normal = (1, 0, 0), position = 0.17 }",
+        "volumecut(f) { normal = (0, 1, 0), position = 0.2, density = 0.000001 }",
+    );
+}
+
+#[test]
+fn of_a_cloud_what_is_dense_is_compared() {
+    let cloud = |sign: &str| {
+        format!(
+            "f(x, y, z) = {sign}(if x > 1 then 1 + 0.5 sin(10000000 + y + z) else 1)\nshow scatter(f)"
+        )
+    };
+    for (sign, expected) in [("-", Precision::Fast), ("", Precision::Extended)] {
+        let Some(verdict) = verdict(&cloud(sign), [0.0, 0.0], 2.0) else {
+            return;
+        };
+        let wide = verdict.precision.format().is_wide();
+        assert_eq!(wide, expected.format().is_wide(), "{sign}: {verdict}");
+    }
+}
+
+#[test]
+fn of_a_glow_the_light_near_the_surface_is_compared() {
+    let glow = |size: &str| {
+        format!(
+            "f(x, y, z) = √(x^2 + y^2 + z^2) - {size} + (if x > 1 then 0.02 sin(10000000 + y + z) else 0)\n\
+             show glow(f) {{ estimate = value, epsilon = 0.005, box = 2 }}"
+        )
+    };
+    for (size, wide) in [("0.3", false), ("1.5", true)] {
+        let Some(verdict) = verdict(&glow(size), [0.0, 0.0], 2.0) else {
+            return;
+        };
+        assert_eq!(
+            verdict.precision.format().is_wide(),
+            wide,
+            "{size}: {verdict}"
+        );
+    }
+}
+
+/// South of the sphere's equator |z| > 1, which no pixel's own coordinates are.
+#[test]
+fn of_the_sphere_what_it_shows_is_compared() {
+    let sphere = |view: &str| {
+        format!(
+            "f(z) = if abs(z) > 3 then z exp(0.1i sin(10000000 + re(z))) else z\nshow sphere(f) {{ {view} }}"
+        )
+    };
+    for (view, wide) in [
+        ("pitch = 90", false),
+        ("pitch = 0", true),
+        ("pitch = 90, rotation = (180, 0, 0)", true),
+    ] {
+        let Some(verdict) = verdict(&sphere(view), [0.0, 0.0], 2.3) else {
+            return;
+        };
+        assert_eq!(
+            verdict.precision.format().is_wide(),
+            wide,
+            "{view}: {verdict}"
+        );
+    }
+}

@@ -465,15 +465,25 @@ def smin(a, b, width):
     return b * (1 - h) + a * h - k * h * (1 - h)
 
 
-def ember(x, y, z):
-    u, v, w = (a + mp.mpf("0.06") * sin(7 * b) for a, b in ((x, z), (y, x), (z, y)))
+def folded_rods(x, y, z, warp, folds, scale, radius, core, soft):
+    amplitude, frequency = warp
+    u, v, w = (a + mp.mpf(amplitude) * sin(frequency * b) for a, b in ((x, z), (y, x), (z, y)))
+    corner, xy_angle, yz_angle = folds
     for _ in range(2):
-        u, v, w = (absolute(a) - mp.mpf(f) for a, f in zip((u, v, w), ("0.55", "0.35", "0.4")))
-        u, v = turned(u, v, "0.6")
-        v, w = turned(v, w, "0.4")
-        u, v, w = (mp.mpf("1.6") * a for a in (u, v, w))
-    rods = smin(smin(hypot(v, w), hypot(u, w), "0.2"), hypot(u, v), "0.2")
-    return smin((rods - mp.mpf("0.09")) / mp.mpf("1.6") ** 2, hypot3(x, y, z) - mp.mpf("0.35"), "0.3")
+        u, v, w = (absolute(a) - mp.mpf(f) for a, f in zip((u, v, w), corner))
+        u, v = turned(u, v, xy_angle)
+        v, w = turned(v, w, yz_angle)
+        u, v, w = (mp.mpf(scale) * a for a in (u, v, w))
+    rods = smin(smin(hypot(v, w), hypot(u, w), soft), hypot(u, v), soft)
+    return smin((rods - mp.mpf(radius)) / mp.mpf(scale) ** 2, hypot3(x, y, z) - mp.mpf(core), "0.3")
+
+
+def ember(x, y, z):
+    return folded_rods(x, y, z, ("0.06", 7), (("0.55", "0.35", "0.4"), "0.6", "0.4"), "1.6", "0.09", "0.35", "0.2")
+
+
+def orbit_trap(x, y, z):
+    return folded_rods(x, y, z, ("0.06", 6), (("0.6", "0.4", "0.35"), "0.5", "0.5"), "1.6", "0.07", "0.3", "0.15")
 
 
 def sponge(x, y, z):
@@ -539,6 +549,7 @@ def resonance(x, y, z):
 
 SPACE = {
     "ember": (ember, 2, [(0.35, 0, 0), (0.55, 0.35, 0.4), (0, 0, 0), (0.25, 0.5, 0.75)]),
+    "orbit-trap": (orbit_trap, 2, [(0.3, 0, 0), (0.6, 0.4, 0.35), (0, 0, 0), (0.25, 0.5, 0.75)]),
     "multipole": (multipole, 2, [(1.25, 0.125, 0), (-0.5, 1, 0.25), (-0.5, -0.75, 0), (0, 0, 0)]),
     "schwarz-family": (lambda x, y, z: cos(PI * x) + cos(PI * y) + cos(PI * z), 1.5, [(0, 0, 0), (0.5, 0.5, 0.5), (1, 0, 0), (1, 1, 0)]),
     "neovius": (lambda x, y, z: 3 * (cos(x) + cos(y) + cos(z)) + 4 * cos(x) * cos(y) * cos(z), 4.5, [(0, 0, 0), (1.5707964, 1.5707964, 1.5707964), (3.1415927, 0, 0)]),

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{Program, compile};
-use pullback_runtime::auto::{self, Outcome, Sample, Scenery};
+use pullback_runtime::auto::{self, Outcome, Sample, Scenery, Subject};
 use pullback_runtime::{Frame, Gpu, Pipeline, Size, View};
 
 use crate::corpus::{read, root};
@@ -94,6 +94,7 @@ pub fn zooms(field: &Field) -> Vec<Zoom> {
         zoom.samples.push(Sample {
             point: [field.center[0] + x, field.center[1] + y, 0.0],
             footprint: width / f64::from(SIZE.width),
+            subject: Subject::Picture,
         });
         zoom.truth.extend([value, dx, dy]);
     }

@@ -107,6 +107,41 @@ fn stripes_are_the_mean_under_the_footprint() {
     println!("off by at most {worst:.1e} of 1");
 }
 
+/// Where the rings of a zone plate are nearly as fine as pixels they would come back as slow ones, from the mean of a few
+/// samples, too: a box lets a part of sin(π f)/(π f) through, the Gaussian exp(-2 (π f/2)²) of that.
+#[test]
+fn stripes_as_fine_as_pixels_leave_no_rings() {
+    let Some(gpu) = suite_gpu() else { return };
+    let source = "show bands(x^2 + y^2) { period = 0.2 }";
+    for samples in [1, 2, 4] {
+        let camera = Camera {
+            center: [0.0; 2],
+            height: 12.0,
+            size: [300, 225],
+            samples,
+        };
+        let picture = Picture::draw(&gpu, source, camera);
+        let mean = picture.linear(0, 112);
+        let mut worst = 0.0_f64;
+        for row in 0..225 {
+            for column in 0..300 {
+                let [x, y] = camera.world(f64::from(column) + 0.5, f64::from(row) + 0.5);
+                // cycles of four stripes in a pixel
+                let fineness = 2.0 * x.hypot(y) * camera.pixel() / 0.8;
+                if fineness > 0.8 {
+                    let found = picture.linear(column, row);
+                    let off = (0..3)
+                        .map(|k| (found[k] - mean[k]).abs())
+                        .fold(0.0, f64::max);
+                    worst = worst.max(off);
+                }
+            }
+        }
+        println!("{samples} samples: {worst:.4}");
+        assert!(worst < 0.025, "{samples} samples: rings of {worst}");
+    }
+}
+
 /// The colours of the other palettes are those that constants have; they, too, give way to their mean.
 #[test]
 fn stripes_of_every_palette_fade_to_their_mean() {

@@ -6,7 +6,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Function, Module, ScalarKind, Statement, TypeInner, VectorSize};
 use pullback_compiler::link::{Linker, Provider, Sources, is_stub};
 use pullback_compiler::lower::{LowerError, Tier};
-use pullback_compiler::scene::{Scene, SettingKind, Space, scene, scenes};
+use pullback_compiler::scene::{ENTRIES, Scene, SettingKind, Space, TABLE, scene, scenes};
 use pullback_tests::corpus::{Source, files, read, root};
 use pullback_tests::units::{FIELD_STUBS, copies, evaluations, finite_differences};
 
@@ -77,7 +77,10 @@ fn the_libraries_are_valid_and_whole() {
 }
 
 /// What the drawing library leaves to the formula and to the template.
-const OPEN: [&str; 3] = ["field_ray", "field_grad", "seen_bound"];
+const OPEN: [&str; 4] = ["field_ray", "field_grad", "seen_bound", "colour_entry"];
+
+/// The stub for a second formula, which gives colours.
+const COLOURS: &str = "field_colour";
 
 /// Fills no stub.
 struct Nothing;
@@ -138,7 +141,8 @@ fn the_formula_alone_is_open_in_a_linked_scene() {
     for scene in scenes() {
         for (_, function) in whole(scene).functions.iter().filter(|(_, f)| is_stub(f)) {
             let name = function.name.as_deref().unwrap_or_default();
-            assert!(FIELD_STUBS.contains(&name), "{}: {name}", scene.name);
+            let open = FIELD_STUBS.contains(&name) || name == COLOURS;
+            assert!(open, "{}: {name}", scene.name);
         }
     }
 }
@@ -188,7 +192,7 @@ fn stubs_are_of_the_compiler_or_have_their_twin_in_a_library() {
         for (_, function) in module.functions.iter().filter(|(_, f)| is_stub(f)) {
             let title = function.name.clone().unwrap_or_default();
             if FIELD_STUBS.contains(&title.as_str())
-                || ["shade", "evaluate"].contains(&title.as_str())
+                || ["shade", "evaluate", COLOURS].contains(&title.as_str())
             {
                 continue;
             }
@@ -506,6 +510,7 @@ fn holds(ty: &TypeInner, kind: SettingKind) -> bool {
         SettingKind::Real => scalar(&[ScalarKind::Float]),
         SettingKind::Integer => scalar(&[ScalarKind::Uint, ScalarKind::Sint]),
         SettingKind::Choice(_) => scalar(&[ScalarKind::Uint]),
+        SettingKind::Function => false,
         SettingKind::Vec2 => vector(VectorSize::Bi),
         SettingKind::Vec3 => vector(VectorSize::Tri),
     }
@@ -526,6 +531,13 @@ fn settings_of(scene: &Scene) -> Result<(), String> {
                 let ty = module.types[m.ty].inner.clone();
                 (m.name.clone().unwrap_or_default(), ty, m.offset)
             }));
+        }
+    }
+    if let Some(k) = members.iter().position(|m| m.0 == TABLE) {
+        let (_, table, _) = members.remove(k);
+        let size = table.size(module.to_ctx());
+        if scene.setting("palette").is_none() || size as usize != 16 * ENTRIES {
+            return Err("a table of colours that no palette fills".into());
         }
     }
     for (name, ty, _) in &members {

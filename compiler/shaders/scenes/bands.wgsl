@@ -1,8 +1,8 @@
 // bands: a real function of the plane as stripes of flat colours, like a map of heights.
 //
 // Stripe k is where k ≤ (f - start) / period < k + 1; its colour is the one with the number k mod count. Each sample is
-// the exact mean of the stripes under a Gaussian footprint, in linear light, for f that is linear across it: a sum of
-// one step for each edge. Where all colours lie under the footprint it is their mean.
+// the exact mean of the stripes under a Gaussian footprint, which is given in pixels, in linear light, for f that is linear
+// across it: a sum of one step for each edge. Where all colours lie under the footprint it is their mean.
 //
 // An undefined value (NaN) is a quiet grey hatch, an infinity the mean colour with a hatch of the other slope. A constant is
 // the colour of its stripe.
@@ -29,6 +29,7 @@ struct Settings {
     color_3: vec3f,
     color_4: vec3f,
     key: f32,
+    colours: array<vec4f, 129>,  // of a named palette
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -49,10 +50,10 @@ fn is_nan(x: f32) -> bool { return false; }
 fn is_inf(x: f32) -> bool { return false; }
 fn length2_safe(v: vec2f) -> f32 { return 0.0; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
-fn sample_window() -> f32 { return 0.0; }
 fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
 fn infinite_colour(pixel: vec2f, colour: vec3f) -> vec3f { return vec3f(); }
 fn oklch_wheel(t: f32) -> vec3f { return vec3f(); }
+fn mapped_colour(u: f32) -> vec3f { return vec3f(); }
 fn sequential_ramp(t: f32) -> vec3f { return vec3f(); }
 fn diverging_ramp(t: f32) -> vec3f { return vec3f(); }
 fn normal_cdf(x: f32) -> f32 { return 0.0; }
@@ -67,6 +68,10 @@ const REACH: f32 = 5.2;
 // is then below exp(-2π² 0.8²) = 3.3e-6.
 const UNRESOLVED: f32 = 0.8;
 
+fn colour_entry(k: u32) -> vec3f {
+    return settings.colours[k].rgb;
+}
+
 fn period() -> f32 {
     return select(settings.period, 1.0, settings.period <= 1e-37);
 }
@@ -80,7 +85,8 @@ fn stripe_colour(k: i32) -> vec3f {
         case 1u: { return sequential_ramp(0.12 + 0.88 * place); }
         case 2u: { return diverging_ramp(2.0 * place - 1.0); }
         case 3u: { return oklch_wheel(f32(index) / f32(count)); }
-        default: {}
+        case 0u: {}
+        default: { return mapped_colour(place); }
     }
     switch index % 4 {
         case 0: { return settings.color_1; }
@@ -130,7 +136,7 @@ fn colour_of(jet: vec3f, pixel: vec2f) -> vec3f {
     var spread = 0.0;
     if !(is_nan(jet.x) || is_nan(jet.y)) {
         let rate = min(length2_safe(jet.xy), 1e37) * view.pixel;
-        spread = rate / period() * settings.footprint * sample_window();
+        spread = rate / period() * settings.footprint;
     }
     return filtered_colour((jet.z - settings.start) / period(), spread);
 }

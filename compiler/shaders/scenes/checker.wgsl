@@ -32,6 +32,7 @@ struct Settings {
     dark: vec3f,
     ink: vec3f,
     key: f32,
+    colours: array<vec4f, 129>,  // of a named palette
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -75,6 +76,10 @@ fn even_lines(u: f32, rate: f32, width: f32) -> f32 { return 0.0; }
 fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key { return Key(); }
 fn key_jet(key: Key, reach: f32) -> Jet { return Jet(); }
 fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
+
+fn colour_entry(k: u32) -> vec3f {
+    return settings.colours[k].rgb;
+}
 
 // 1 and -1 on the squares of a board of side 1.
 fn board(w: vec2f, rates: vec2f) -> f32 {

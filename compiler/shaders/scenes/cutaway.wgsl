@@ -26,6 +26,7 @@
 // | camera                   |         | where it is and how it sees |
 // | light_yaw, light_pitch   | degrees | of the light; yaw from the camera or from +x |
 // | light_strength, ambient  |         | of the sun, and of sky and ground |
+// | palette                  |         | colours of values |
 // | backdrop, background     |         | 0 ground and sky, 1 plain, 2 transparent; colour of the horizon |
 //
 // Where f is undefined there is no surface; cut and walls are hatched. A constant has no surface, and one colour on the
@@ -89,6 +90,8 @@ struct Settings {
     backdrop: u32,
     background: vec3f,
     edge_width: f32,
+    palette: u32,
+    colours: array<vec4f, 129>,  // of a named palette
 }
 
 struct Ray {
@@ -138,6 +141,7 @@ struct Shells {
     ghost_opacity: f32,
     lighting: f32,
     lamp: Lamp,
+    palette: u32,
 }
 
 struct Layer {
@@ -179,6 +183,10 @@ fn stage_at(backdrop: u32, ray: Ray, center: vec3f, half_size: vec3f, background
 fn seen_nothing() -> Seen { return Seen(); }
 fn seen_behind(seen: Seen, layer: Layer) -> Seen { return Seen(); }
 
+fn colour_entry(k: u32) -> vec3f {
+    return settings.colours[k].rgb;
+}
+
 fn color_scale() -> f32 {
     return select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
 }
@@ -192,6 +200,7 @@ fn shells() -> Shells {
         settings.ghost_opacity,
         settings.lighting,
         lamp(),
+        settings.palette,
     );
 }
 
@@ -226,7 +235,7 @@ fn seen_cut(seen: Seen, jet: vec4f, t: f32, sight: Sight, n: vec3f, pixel: vec2f
     let rate = screen_rate(sight, t, n, jet.xyz);
     let spacing = max(select(0.25 * color_scale(), settings.contour_spacing, settings.contour_spacing > 0.0), 1e-37);
     let contours = Contours(spacing, settings.line_width, settings.level_width, settings.line_opacity, 0u);
-    let colour = contour_colour(value, rate, 0u, color_scale(), contours, settings.ink, pixel);
+    let colour = contour_colour(value, rate, settings.palette, color_scale(), contours, settings.ink, pixel);
     let opacity = select(settings.cut_above, settings.cut_below, value < 0.0);
     return seen_behind(seen_edges(seen, sight, t, n, true), Layer(colour, opacity));
 }

@@ -4,7 +4,7 @@
 // Settings:
 // | name         | type  | default          | range      | unit   | meaning |
 // | modulus      | f32   | 1                | >0         | value  | |f| that is neither darkened nor lightened, on a ring |
-// | palette      | u32   | 0                | 0..2       |        | 0 cubehelix rainbow, 1 OKLCH wheel, 2 HSV wheel |
+// | palette      | u32   | 0                | 0..3       |        | 0 cubehelix rainbow, 1 OKLCH wheel, 2 HSV wheel, 3 twilight |
 // | rings        | u32   | 2                | 0..2       |        | 0 none, 1 waves, 2 steps (darker to lighter as |f| grows) |
 // | ring_depth   | f32   | 0.35             | 0..1       |        | contrast of the rings |
 // | ring_octaves | f32   | 1                | >0         | octave | from ring to ring |
@@ -42,6 +42,7 @@ struct Settings {
     line_width: f32,
     ink: vec3f,
     key: f32,
+    colours: array<vec4f, 129>,  // of a named palette
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -92,6 +93,10 @@ fn phase_line_coverage(turns: f32, rate: f32, count: u32, width: f32) -> f32 { r
 fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key { return Key(); }
 fn key_jet(key: Key, reach: f32) -> Jet { return Jet(); }
 fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
+
+fn colour_entry(k: u32) -> vec3f {
+    return settings.colours[k].rgb;
+}
 
 fn style() -> PhaseStyle {
     return PhaseStyle(

@@ -8,6 +8,7 @@
 // | falloff                |         | emission 0: ε/(|d| + ε)², 1: 1/(|d| + ε) |
 // | gain                   |         | factor of the emission |
 // | hot, body, halo        | linear  | colours at the surface, near it, and far from it |
+// | color                  |         | a function that colours the light instead, such as an orbit trap |
 // | understep              |         | step, as a part of |d| |
 // | steps                  |         | shortest steps along the diagonal of the box |
 // | fade                   |         | part of the box within which the light fades towards the walls |
@@ -82,7 +83,10 @@ struct Sight {
 
 // (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
 fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
+// The function that colours the light: a number three times and 1, linear rgb and 2, or zeros where there is none.
+fn field_colour(p: vec3f) -> vec4f { return vec4f(); }
 
+fn is_nan(x: f32) -> bool { return false; }
 fn is_finite(x: f32) -> bool { return false; }
 fn length3_safe(v: vec3f) -> f32 { return 0.0; }
 fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
@@ -114,6 +118,18 @@ fn distance_at(p: vec3f) -> f32 {
 fn glow_colour(away: f32, epsilon: f32) -> vec3f {
     let near = epsilon / (away + epsilon);
     return mix(mix(settings.halo, settings.body, smoothstep(0.0, 0.5, near)), settings.hot, smoothstep(0.4, 1.0, near));
+}
+
+// The colour that the user's function gives, where there is one and it is defined.
+fn own_colour(own: vec4f, otherwise: vec3f) -> vec3f {
+    if own.w == 0.0 || is_nan(own.x) || is_nan(own.y) || is_nan(own.z) {
+        return otherwise;
+    }
+    let part = clamp(own.rgb, vec3f(0.0), vec3f(1.0));
+    if own.w == 2.0 {
+        return part;
+    }
+    return mix(mix(settings.hot, settings.body, smoothstep(0.0, 0.5, part.x)), settings.halo, smoothstep(0.5, 1.0, part.x));
 }
 
 // How much light is left near the walls.
@@ -149,7 +165,7 @@ fn glow_along(ray: Ray, span: vec2f, pixel: vec2f) -> vec3f {
             let middle = ray.origin + (start + t - 0.5 * before.x) * ray.direction;
             let near = min(abs(before.y), abs(here));
             let crossing = (before.y < 0.0) != (here < 0.0);
-            let colour = glow_colour(select(near, 0.0, crossing), epsilon);
+            let colour = own_colour(field_colour(p), glow_colour(select(near, 0.0, crossing), epsilon));
             light += colour * (mean_glow(before.y, here, epsilon, settings.falloff == 0u) * before.x * faded(middle));
         }
         if t >= extent {

@@ -36,6 +36,7 @@ struct Settings {
     paper: vec3f,
     ink: vec3f,
     key: f32,
+    colours: array<vec4f, 129>,  // of a named palette
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -94,6 +95,10 @@ struct Coordinates {
     rates: vec2f,
     first: Octave,
     second: Octave,
+}
+
+fn colour_entry(k: u32) -> vec3f {
+    return settings.colours[k].rgb;
 }
 
 fn coordinates(jet: Jet, polar: Polar) -> Coordinates {

@@ -8,7 +8,7 @@
 // | zero_width   | f32   | 2.6              | 0..20      | pixels | of the line f = 0; 0: like the others |
 // | line_opacity | f32   | 0.5              | 0..1       |        | of level lines |
 // | major        | u32   | 5                | 0..100     | lines  | every how many lines one is stronger; 0: none |
-// | palette      | u32   | 0                | 0..2       |        | 0 blue-white-red, 1 indigo to cream, 2 paper |
+// | palette      | u32   | 0                | 0..10      |        | 0 blue-white-red, 1 indigo to cream, 2 paper, from 3 on named maps |
 // | ink          | vec3f | 0.010 0.012 0.02 | 0..1       | linear | colour of all lines |
 // | key          | f32   | 0                | 0..0.5     | height | of the colour key: values from -4 to 4 color_scale; 0: none |
 //
@@ -38,6 +38,7 @@ struct Settings {
     palette: u32,
     ink: vec3f,
     key: f32,
+    colours: array<vec4f, 129>,  // of a named palette
 }
 
 struct Contours {
@@ -70,6 +71,10 @@ fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key { return Key(); }
 fn scale_labels(key: Key, low: f32, middle: f32, high: f32) -> bool { return false; }
 fn label_colour(colour: vec3f) -> vec3f { return vec3f(); }
 fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
+
+fn colour_entry(k: u32) -> vec3f {
+    return settings.colours[k].rgb;
+}
 
 // The scale of the colours, 1 where none is set.
 fn color_scale() -> f32 {

@@ -29,6 +29,7 @@ struct Settings {
     palette: u32,
     ink: vec3f,
     key: f32,
+    colours: array<vec4f, 129>,  // of a named palette
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -57,6 +58,7 @@ fn sample_window() -> f32 { return 0.0; }
 fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
 fn infinite_colour(pixel: vec2f, colour: vec3f) -> vec3f { return vec3f(); }
 fn diverging_ramp(t: f32) -> vec3f { return vec3f(); }
+fn mapped_colour(u: f32) -> vec3f { return vec3f(); }
 fn log2_parts(x: f32) -> vec2f { return vec2f(); }
 fn octave_rate(value: f32, gradient: vec2f) -> f32 { return 0.0; }
 fn octave_of_rate(rate: f32, apart: f32, base: f32) -> Octave { return Octave(); }
@@ -69,11 +71,18 @@ fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
 // Octaves of |f| from the middle of the key to its ends.
 const KEY_OCTAVES: f32 = 12.0;
 
+fn colour_entry(k: u32) -> vec3f {
+    return settings.colours[k].rgb;
+}
+
 // Colour of a value by its sign and by how far |f| has come, 0..1.
 fn palette_colour(side: f32, far: f32) -> vec3f {
     let t = side * (0.14 + 0.86 * far);
     if settings.palette == 1u {
         return vec3f(0.93, 0.92, 0.89) - (0.06 + 0.12 * far) * (0.5 - 0.5 * side) * vec3f(1.0, 0.7, 0.45);
+    }
+    if settings.palette > 1u {
+        return mapped_colour(0.5 + 0.5 * t);
     }
     return diverging_ramp(t);
 }

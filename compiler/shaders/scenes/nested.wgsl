@@ -16,6 +16,7 @@
 // | camera                   |         | where it is and how it sees |
 // | light_yaw, light_pitch   | degrees | of the light; yaw from the camera or from +x |
 // | light_strength, ambient  |         | of the sun, and of sky and ground |
+// | palette                  |         | colours of values |
 // | backdrop, background     |         | 0 ground and sky, 1 plain, 2 transparent; colour of the horizon |
 //
 // Where f is undefined there is no surface, and the walls are hatched. A constant has no surface. A sign change where f
@@ -68,6 +69,8 @@ struct Settings {
     backdrop: u32,
     background: vec3f,
     edge_width: f32,
+    palette: u32,
+    colours: array<vec4f, 129>,  // of a named palette
 }
 
 struct Ray {
@@ -102,6 +105,7 @@ struct Shells {
     ghost_opacity: f32,
     lighting: f32,
     lamp: Lamp,
+    palette: u32,
 }
 
 struct Layer {
@@ -138,6 +142,10 @@ fn stage_at(backdrop: u32, ray: Ray, center: vec3f, half_size: vec3f, background
 fn seen_nothing() -> Seen { return Seen(); }
 fn seen_behind(seen: Seen, layer: Layer) -> Seen { return Seen(); }
 
+fn colour_entry(k: u32) -> vec3f {
+    return settings.colours[k].rgb;
+}
+
 fn shells() -> Shells {
     let scale = select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
     let spacing = max(select(0.5 * scale, settings.spacing, settings.spacing > 0.0), 1e-37);
@@ -148,6 +156,7 @@ fn shells() -> Shells {
         settings.ghost_opacity,
         settings.lighting,
         lamp(),
+        settings.palette,
     );
 }
 

@@ -13,6 +13,7 @@
 // | line_width            | pixels  | of contour lines |
 // | zero_width            | pixels  | of the line f = 0 |
 // | line_opacity, major   |         | of contour lines; every how many one is stronger |
+// | palette               |         | colours of values |
 // | ink                   | linear  | colour of contour lines |
 // | grid                  | world   | between lines of the grid, 0: automatic |
 // | grid_opacity          |         | of the grid |
@@ -72,6 +73,8 @@ struct Settings {
     camera: Camera,
     background: vec3f,
     backdrop: u32,
+    palette: u32,
+    colours: array<vec4f, 129>,  // of a named palette
 }
 
 struct Ray {
@@ -132,6 +135,10 @@ struct Slice {
     met: bool,
 }
 
+fn colour_entry(k: u32) -> vec3f {
+    return settings.colours[k].rgb;
+}
+
 fn color_scale() -> f32 {
     return select(settings.color_scale, 1.0, settings.color_scale <= 1e-37);
 }
@@ -182,7 +189,7 @@ fn nearest_slice(sight: Sight, span: vec2f) -> Slice {
 fn slice_colour(slice: Slice, sight: Sight, pixel: vec2f) -> vec3f {
     let jet = field_grad(sight.ray.origin + slice.t * sight.ray.direction);
     let rate = screen_rate(sight, slice.t, slice.normal, jet.xyz);
-    let colour = contour_colour(jet.w, rate, 0u, color_scale(), contours(slice.chosen), settings.ink, pixel);
+    let colour = contour_colour(jet.w, rate, settings.palette, color_scale(), contours(slice.chosen), settings.ink, pixel);
     if slice.chosen {
         return colour;
     }

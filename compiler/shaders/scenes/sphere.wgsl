@@ -43,6 +43,7 @@ struct Settings {
     background: vec3f,
     backdrop: u32,
     key: f32,
+    colours: array<vec4f, 129>,  // of a named palette
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -120,6 +121,10 @@ struct Axes {
     x: vec3f,
     y: vec3f,
     z: vec3f,
+}
+
+fn colour_entry(k: u32) -> vec3f {
+    return settings.colours[k].rgb;
 }
 
 // Axes of the view: right, up, towards the viewer.

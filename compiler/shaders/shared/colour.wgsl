@@ -85,3 +85,13 @@ fn hsv_wheel(t: f32) -> vec3f {
     let encoded = clamp(vec3f(offset.x - 1.0, 2.0 - offset.y, 2.0 - offset.z), vec3f(0.0), vec3f(1.0));
     return srgb_decode(encoded);
 }
+
+// The template's: entry k of the table of a named colour map, 0 ≤ k ≤ 128.
+fn colour_entry(k: u32) -> vec3f { return vec3f(); }
+
+// A named colour map at u in [0, 1], linear light between its entries.
+fn mapped_colour(u: f32) -> vec3f {
+    let place = clamp(u, 0.0, 1.0) * 128.0;
+    let k = min(u32(place), 127u);
+    return mix(colour_entry(k), colour_entry(k + 1u), place - f32(k));
+}

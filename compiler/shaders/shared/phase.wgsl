@@ -2,7 +2,7 @@
 
 // How `domain_colour` looks; each member is a setting of the scenes that draw with it.
 struct PhaseStyle {
-    palette: u32,       // 0 cubehelix rainbow, 1 OKLCH wheel, 2 HSV wheel
+    palette: u32,       // 0 cubehelix rainbow, 1 OKLCH wheel, 2 HSV wheel, 3 a named map
     modulus: f32,       // |f| that is neither darkened nor lightened, on a ring
     rings: u32,         // 0 none, 1 waves, 2 steps
     ring_depth: f32,    // contrast of rings and phase steps
@@ -15,6 +15,7 @@ fn wheel_colour(turns: f32, palette: u32) -> vec3f {
     switch palette {
         case 1u: { return oklch_wheel(turns); }
         case 2u: { return hsv_wheel(turns); }
+        case 3u: { return mapped_colour(turns - floor(turns)); }
         default: { return cubehelix_rainbow(turns); }
     }
 }

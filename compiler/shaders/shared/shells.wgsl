@@ -8,6 +8,7 @@ struct Shells {
     ghost_opacity: f32,       // of the others, seen face on
     lighting: f32,            // 0: all colours as they are
     lamp: Lamp,
+    palette: u32,
 }
 
 const SHELL_INK: vec3f = vec3f(0.012, 0.014, 0.02);
@@ -22,10 +23,10 @@ fn highlighted_level(number: u32, count: u32) -> i32 {
     return select(i32(min(number, count)) - 1, i32((count - 1u) / 2u), number == 0u);
 }
 
-// Blue for the lowest, white in the middle, red for the highest.
-fn shell_colour(level: i32, count: u32) -> vec3f {
+// From the palette's colour for low values to that for high ones.
+fn shell_colour(level: i32, count: u32, palette: u32) -> vec3f {
     let reach = max(0.5 * f32(count - 1u), 0.5);
-    return diverging_ramp(0.85 * (f32(level) - 0.5 * f32(count - 1u)) / reach);
+    return palette_colour(palette, 0.85 * (f32(level) - 0.5 * f32(count - 1u)) / reach);
 }
 
 // A level set where the ray meets it. The side of smaller values is paler. A translucent shell of constant thickness is
@@ -34,7 +35,7 @@ fn shell_layer(level: i32, touching: bool, gradient: vec3f, direction: vec3f, sh
     let uphill = direction_or(gradient, -direction);
     let outside = dot(uphill, direction) <= 0.0;
     let n = select(-uphill, uphill, outside);
-    let own = shell_colour(level, shells.family.count);
+    let own = shell_colour(level, shells.family.count, shells.palette);
     let colour = select(mix(own, vec3f(1.0), 0.3), own, outside || touching);
     // white paint reflects four fifths
     let lit = lit_colour(0.8 * colour, n, -direction, 1.0, shells.lamp);
@@ -55,12 +56,12 @@ fn shell_wall(value: f32, rate: f32, behind: bool, width: f32, shells: Shells, p
     let family = shells.family;
     let count = f32(family.count);
     let u = clamp((value - family.lowest) / family.spacing, -1e9, 1e9);
-    let tint = diverging_ramp(clamp((2.0 * u - count + 1.0) / max(count, 2.0), -1.0, 1.0));
+    let tint = palette_colour(shells.palette, clamp((2.0 * u - count + 1.0) / max(count, 2.0), -1.0, 1.0));
     let wall = Layer(mix(tint, vec3f(1.0), 0.25), select(0.0, 0.30, behind));
     if rate <= 0.0 || u < -0.5 || u > count - 0.5 {
         return wall;
     }
-    let own = shell_colour(i32(clamp(floor(u + 0.5), 0.0, count - 1.0)), family.count);
+    let own = shell_colour(i32(clamp(floor(u + 0.5), 0.0, count - 1.0)), family.count, shells.palette);
     let ink = select(0.55, 0.9, behind) * even_lines(u, min(rate / family.spacing, 1e9), width);
     return layer_over(Layer(mix(0.35 * own, SHELL_INK, 0.2), ink), wall);
 }

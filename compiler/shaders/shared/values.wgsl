@@ -9,12 +9,13 @@ fn saturate_value(value: f32, scale: f32) -> f32 {
     return x * inverseSqrt(1.0 + x * x);
 }
 
-// Colour of a saturated value in [-1, 1]: 0 blue-white-red, 1 indigo to cream, 2 paper.
+// Colour of a saturated value in [-1, 1]: 0 blue-white-red, 1 indigo to cream, 2 paper, from 3 on a named map.
 fn palette_colour(palette: u32, t: f32) -> vec3f {
     switch palette {
         case 1u: { return sequential_ramp(0.5 + 0.5 * t); }
         case 2u: { return vec3f(0.93, 0.92, 0.89) - 0.10 * max(-t, 0.0) * vec3f(1.0, 0.7, 0.45); }
-        default: { return diverging_ramp(t); }
+        case 0u: { return diverging_ramp(t); }
+        default: { return mapped_colour(0.5 + 0.5 * t); }
     }
 }
 

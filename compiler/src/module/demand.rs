@@ -15,6 +15,7 @@ use crate::stable::finish;
 /// Names of the stubs that are filled from a formula.
 pub const DEMANDS: [&str; 9] = [
     "field",
+    "field_colour",
     "field_grad",
     "field_jet2",
     "field_ray",
@@ -30,6 +31,8 @@ pub const DEMANDS: [&str; 9] = [
 pub struct Demand<'f> {
     /// What is shown.
     pub formula: &'f Formula,
+    /// The function that gives the colours, if there is one.
+    pub colour: Option<&'f Formula>,
     /// Which forms of functions are called.
     pub precision: Precision,
 }
@@ -53,6 +56,7 @@ impl Provider for Demand<'_> {
         let answer = match name {
             "field" => self.value(),
             "field_grad" => self.gradient(stub)?,
+            "field_colour" => self.colours(stub)?,
             "field_jet2" => self.second_jet(stub)?,
             "field_ray" => self.ray(types)?,
             "field_integral" => self.integral()?,
@@ -140,6 +144,41 @@ impl Demand<'_> {
             inputs: self.point_inputs(),
             output: Output::Node(0),
         }
+    }
+
+    /// Of the function that gives colours: a real number three times and 1, a vector and 2; zeros where there is none.
+    fn colours(&self, stub: &Function) -> Result<Answer, LowerError> {
+        let result = stub
+            .result
+            .as_ref()
+            .ok_or(LowerError::NoForm("colours"))?
+            .ty;
+        let Some(colour) = self.colour else {
+            let output = Output::Zero(result);
+            return Ok(Answer {
+                graph: Graph::new(),
+                roots: Vec::new(),
+                inputs: Vec::new(),
+                output,
+            });
+        };
+        let own = Self {
+            formula: colour,
+            ..*self
+        };
+        let (mut graph, mut roots) = own.graph();
+        let parts = match roots.as_slice() {
+            [_] => [0, 0, 0, 1],
+            _ => [0, 1, 2, 3],
+        };
+        let kind = graph.real(if roots.len() == 1 { 1.0 } else { 2.0 });
+        roots.push(kind);
+        Ok(Answer {
+            graph,
+            roots,
+            inputs: own.point_inputs(),
+            output: Output::Compose(result, parts.map(Output::Node).to_vec()),
+        })
     }
 
     /// All partial derivatives and the value; partials by coordinates that the formula does not take are zero.

@@ -9,7 +9,7 @@ use crate::formula::Formula;
 use crate::link::{Linker, Sources};
 use crate::lower::Tier;
 use crate::program::{Picture, SettingValue};
-use crate::scene::Scene;
+use crate::scene::{ENTRIES, Scene, TABLE, setting_component};
 
 /// A validated module with entry points `vertex_main`, `fragment_main`, `compute_main` and `linear_main`.
 #[derive(Clone, Debug)]
@@ -63,7 +63,13 @@ impl SceneModule {
     /// # Errors
     /// As [`Self::new`].
     pub fn link(picture: &Picture, tier: impl Into<Tier>) -> Result<Module, ModuleError> {
-        Self::splice(picture.scene.module(), &picture.formula, tier.into())
+        let colour = picture.colour.as_ref();
+        Self::splice_both(
+            picture.scene.module(),
+            &picture.formula,
+            colour,
+            tier.into(),
+        )
     }
 
     /// [`Self::link`] for any template.
@@ -71,10 +77,20 @@ impl SceneModule {
     /// # Errors
     /// As [`Self::new`].
     pub fn splice(template: &Module, formula: &Formula, tier: Tier) -> Result<Module, ModuleError> {
+        Self::splice_both(template, formula, None, tier)
+    }
+
+    fn splice_both(
+        template: &Module,
+        formula: &Formula,
+        colour: Option<&Formula>,
+        tier: Tier,
+    ) -> Result<Module, ModuleError> {
         let sources = Sources::get(tier);
         let mut linker = Linker::new(vec![template, sources.entry, sources.shared, sources.math]);
         let mut demand = Demand {
             formula,
+            colour,
             precision: tier.precision,
         };
         linker.link_entry_points(1, &mut demand)?;
@@ -86,12 +102,10 @@ impl SceneModule {
     pub fn pack_settings(&self, settings: &[SettingValue]) -> Vec<u8> {
         let mut bytes = vec![0; self.settings_size];
         for member in &self.layout {
-            let Some(setting) = settings.iter().find(|s| s.spec.name == member.name) else {
-                continue;
-            };
-            for (k, &value) in setting.value.as_ref().iter().take(member.count).enumerate() {
+            for k in 0..member.count {
                 let at = member.offset + 4 * k;
-                if let Some(slot) = bytes.get_mut(at..at + 4) {
+                let value = setting_component(settings, &member.name, k);
+                if let (Some(slot), Some(value)) = (bytes.get_mut(at..at + 4), value) {
                     slot.copy_from_slice(&encode(value, member.kind));
                 }
             }
@@ -139,6 +153,10 @@ fn add_members(module: &Module, members: &[StructMember], base: u32, out: &mut V
         let (kind, count) = match &module.types[member.ty].inner {
             TypeInner::Scalar(scalar) => (scalar.kind, 1),
             TypeInner::Vector { size, scalar } => (scalar.kind, *size as usize),
+            // the table of the palette: vectors of four, without gaps
+            TypeInner::Array { .. } if member.name.as_deref() == Some(TABLE) => {
+                (ScalarKind::Float, 4 * ENTRIES)
+            }
             TypeInner::Struct { members, .. } => {
                 add_members(module, members, offset, out);
                 continue;

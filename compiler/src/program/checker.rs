@@ -157,6 +157,7 @@ impl<'a> Checker<'a> {
             scene,
             settings: default_settings(scene),
             formula,
+            colour: None,
         })
     }
 
@@ -250,11 +251,13 @@ impl<'a> Checker<'a> {
         let span = self.file.exprs.span(arg);
         let formula = self.formula(subject, scene.space, span);
         let settings = self.settings_of(scene, show);
+        let colour = self.colour_of(scene, show);
         self.check_result(scene, &formula?, subject, span)
             .map(|formula| Picture {
                 scene,
                 settings,
                 formula,
+                colour,
             })
     }
 }

@@ -71,6 +71,8 @@ pub struct Picture {
     pub settings: Vec<SettingValue>,
     /// What is shown.
     pub formula: Formula,
+    /// The function that gives the colours, where the scene takes one and the program names one.
+    pub colour: Option<Formula>,
 }
 
 impl Picture {
@@ -109,6 +111,9 @@ impl Program {
         };
         let mut formulas = formulas.into_iter();
         for picture in &mut self.pictures {
+            if let Some(colour) = picture.colour.take() {
+                picture.colour = Some(colour.with_rewrites(rewrites));
+            }
             match formulas.next() {
                 Some(formula) => picture.formula = formula,
                 None => picture.formula.rewrites = rewrites,

@@ -1,9 +1,10 @@
 //! The settings of a `show`.
 
 use super::SettingValue;
-use super::checker::Checker;
+use super::checker::{Checker, Subject};
 use super::params::infinity_or_nan;
 use crate::check::{nearest, not_constant, quoted};
+use crate::formula::Formula;
 use crate::scene::{Scene, SettingKind, SettingSpec, conflicts};
 use crate::types::Type;
 use glam::DVec3;
@@ -50,6 +51,10 @@ impl<'a> Checker<'a> {
                 );
                 continue;
             }
+            if spec.kind == SettingKind::Function {
+                // built by `colour_of`
+                continue;
+            }
             let Some(value) = self.setting_value(spec, setting.value) else {
                 continue;
             };
@@ -59,6 +64,52 @@ impl<'a> Checker<'a> {
         }
         self.conflicts_of(scene, show, &settings);
         settings
+    }
+
+    /// The function that a setting of a scene of space names, with its inputs and its type checked.
+    pub(super) fn colour_of(&mut self, scene: &'static Scene, show: &'a Show) -> Option<Formula> {
+        let kind = |name: &str| scene.setting(name).map(|spec| spec.kind);
+        let mut named = show.settings.iter();
+        let setting = named.find(|s| kind(&s.name.text) == Some(SettingKind::Function))?;
+        let span = self.file.exprs.span(setting.value);
+        let function = match &self.file.exprs[setting.value] {
+            Expr::Name(name) => self.symbols.functions.get(name.text.as_str()).copied(),
+            _ => None,
+        };
+        let title = &setting.name.text;
+        let Some(function) = function else {
+            self.diagnostics.push(
+                Diagnostic::error(
+                    "type-mismatch",
+                    span,
+                    format!("`{title}` is the name of a function"),
+                )
+                .with_hint(format!(
+                    "define one, such as `ink(p: vec3) = |p|`, and write `{title} = ink`"
+                )),
+            );
+            return None;
+        };
+        let formula = self.formula(Subject::Function(function), scene.space, span)?;
+        if matches!(formula.ty, Type::Real | Type::Vector(3)) {
+            return Some(formula);
+        }
+        self.diagnostics.push(
+            Diagnostic::error(
+                "wrong-result-type",
+                span,
+                format!(
+                    "`{title}` takes a real number or a vec3, and {} gives {}",
+                    quoted(&function.name.text),
+                    formula.ty.in_words()
+                ),
+            )
+            .with_related(function.name.span, "defined here")
+            .with_hint(
+                "a real number is a place between `hot` (0) and `halo` (1), a vec3 is linear rgb",
+            ),
+        );
+        None
     }
 
     /// Reports settings that make no sense together.

@@ -1,5 +1,6 @@
 //! The settings of `bands`.
 
+use super::colour_map::value_palette;
 use super::{Scene, SettingSpec, Space};
 
 const ANY: f64 = f64::INFINITY;
@@ -33,7 +34,7 @@ pub const SCENE: Scene = Scene {
         ),
         SettingSpec::choice(
             "palette",
-            &["own", "sequential", "diverging", "wheel"],
+            value_palette!["own", "sequential", "diverging", "wheel"],
             0.0,
             "where the colours come from",
         ),
@@ -41,7 +42,7 @@ pub const SCENE: Scene = Scene {
             "footprint",
             0.5,
             (0.05, 8.0),
-            "standard deviation of a sample's Gaussian filter, in its share of a pixel",
+            "pixels, standard deviation of the Gaussian filter, however many samples a pixel has",
         ),
         SettingSpec::colour("color_1", [0.012, 0.036, 0.095], "of `own`, linear rgb"),
         SettingSpec::colour("color_2", [0.055, 0.235, 0.330], "of `own`, linear rgb"),

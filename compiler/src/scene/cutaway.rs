@@ -22,6 +22,7 @@ pub const SCENE: Scene = Scene {
         space::HIGHLIGHT_OPACITY,
         space::GHOST_OPACITY,
         space::COLOR_SCALE,
+        space::PALETTE,
         space::CONTOUR_SPACING,
         space::LINE_WIDTH,
         space::LINE_OPACITY,

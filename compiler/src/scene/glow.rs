@@ -41,6 +41,10 @@ pub const SCENE: Scene = Scene {
             [0.45, 0.05, 0.015],
             "colour far from it, linear rgb",
         ),
+        SettingSpec::function(
+            "color",
+            "name of a function of the point that colours the light instead: a place from `hot` (0) over `body` to `halo` (1), or linear rgb as a vec3",
+        ),
         SettingSpec::real(
             "understep",
             0.45,

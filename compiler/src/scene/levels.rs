@@ -1,5 +1,6 @@
 //! The settings of `levels`.
 
+use super::colour_map::value_palette;
 use super::{Scene, SettingSpec, Space};
 
 const ANY: f64 = f64::INFINITY;
@@ -41,7 +42,7 @@ pub const SCENE: Scene = Scene {
         ),
         SettingSpec::choice(
             "palette",
-            &["diverging", "sequential", "paper"],
+            value_palette!["diverging", "sequential", "paper"],
             0.0,
             "colours of values",
         ),

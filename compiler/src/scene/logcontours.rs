@@ -1,5 +1,6 @@
 //! The settings of `logcontours`.
 
+use super::colour_map::value_palette;
 use super::{Scene, SettingSpec, Space};
 
 const ANY: f64 = f64::INFINITY;
@@ -48,7 +49,7 @@ pub const SCENE: Scene = Scene {
         ),
         SettingSpec::choice(
             "palette",
-            &["diverging", "paper"],
+            value_palette!["diverging", "paper"],
             0.0,
             "colours of both signs",
         ),

@@ -4,6 +4,7 @@ mod additive;
 mod bands;
 mod camera;
 mod checker;
+mod colour_map;
 mod combination;
 mod cutaway;
 mod domain;
@@ -19,6 +20,7 @@ mod slices;
 mod space;
 mod sphere;
 mod surface;
+mod twilight;
 mod volume;
 mod volumecut;
 
@@ -27,6 +29,7 @@ use std::sync::OnceLock;
 use naga::Module;
 use rustc_hash::FxHashMap;
 
+pub use colour_map::{ENTRIES, TABLE, Table, colour_map, setting_component};
 pub use combination::{Conflict, conflicts};
 pub use setting::{SettingKind, SettingSpec};
 

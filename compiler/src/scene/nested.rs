@@ -18,6 +18,7 @@ pub const SCENE: Scene = Scene {
         space::HIGHLIGHT_OPACITY,
         space::GHOST_OPACITY,
         space::COLOR_SCALE,
+        space::PALETTE,
         space::STEPS,
         space::ISOLINE_WIDTH,
         space::WALL_OPACITY,

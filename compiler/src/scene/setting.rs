@@ -18,6 +18,9 @@ pub enum SettingKind {
     Vec3,
     /// One of these words; the shader gets its place in the list.
     Choice(&'static [&'static str]),
+    /// The name of a function of a point of space that gives a real number or a vector of three: a second formula, compiled
+    /// into the module.
+    Function,
 }
 
 /// One setting of a scene.
@@ -111,6 +114,18 @@ impl SettingSpec {
         }
     }
 
+    /// A function of a point.
+    #[must_use]
+    pub const fn function(name: &'static str, doc: &'static str) -> Self {
+        Self {
+            name,
+            doc,
+            kind: SettingKind::Function,
+            default: DVec3::ZERO,
+            range: (f64::NEG_INFINITY, f64::INFINITY),
+        }
+    }
+
     /// The centre of the view of a plane scene.
     #[must_use]
     pub const fn center() -> Self {
@@ -137,7 +152,12 @@ impl SettingSpec {
     /// The colours of the argument of a complex number.
     #[must_use]
     pub const fn wheel(doc: &'static str) -> Self {
-        Self::choice("palette", &["cubehelix", "oklch", "hsv"], 0.0, doc)
+        Self::choice(
+            "palette",
+            &["cubehelix", "oklch", "hsv", "twilight"],
+            0.0,
+            doc,
+        )
     }
 
     /// The height of the colour key; 0: none. `doc` says what the key shows.
@@ -190,9 +210,12 @@ impl SettingSpec {
         self.kind == SettingKind::Vec2 || self.name == "height"
     }
 
-    /// Whether it is a member of the template's `Settings`: neither the view of the plane nor the precision is.
+    /// Whether it is a member of the template's `Settings`: neither the view of the plane nor the precision is, nor a
+    /// function.
     #[must_use]
     pub fn is_in_template(&self, space: Space) -> bool {
-        !(self.name == "precision" || self.is_view() && space != Space::Space)
+        !(self.name == "precision"
+            || self.is_view() && space != Space::Space
+            || self.kind == SettingKind::Function)
     }
 }

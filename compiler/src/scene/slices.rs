@@ -39,6 +39,7 @@ pub const SCENE: Scene = Scene {
             "of the colours and lines of what stands still, which has every fourth line",
         ),
         space::COLOR_SCALE,
+        space::PALETTE,
         space::SPACING,
         space::LINE_WIDTH,
         space::ZERO_WIDTH,

@@ -1,6 +1,7 @@
 //! Settings that scenes of space share: the box, planes that cut it, and how values are drawn.
 
 use super::SettingSpec;
+use super::colour_map::value_palette;
 
 /// No bound.
 pub(super) const ANY: f64 = f64::INFINITY;
@@ -53,6 +54,12 @@ pub(super) const COLOR_SCALE: SettingSpec = SettingSpec::real(
     0.0,
     (0.0, ANY),
     "value at which the colour is 71 % of the way to its end; 0: from the values in the box",
+);
+pub(super) const PALETTE: SettingSpec = SettingSpec::choice(
+    "palette",
+    value_palette!["diverging", "sequential", "paper"],
+    0.0,
+    "colours of values",
 );
 pub(super) const SPACING: SettingSpec = SettingSpec::real(
     "spacing",

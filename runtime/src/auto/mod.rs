@@ -4,8 +4,10 @@
 //! where at every sample the colour differs by less than [`COLOUR`] and no line that passes near is displaced by more
 //! than [`DISPLACEMENT`]. Where two wide tiers do, the one that is faster on this adapter is taken.
 
+mod matter;
 mod points;
 mod sight;
+mod space;
 
 use std::fmt;
 use std::time::{Duration, Instant};
@@ -18,7 +20,7 @@ use pullback_grammar::Diagnostic;
 use crate::evaluate::Surroundings;
 use crate::{Capabilities, Error, Frame, Gpu, GpuEvaluator};
 
-pub use points::Sample;
+pub use points::{Sample, Subject};
 pub use sight::{COLOUR, DISPLACEMENT, Sight};
 
 /// Rows in the batch whose time decides between tiers that are both good.

@@ -4,14 +4,10 @@ use pullback_compiler::Evaluator;
 use pullback_compiler::scene::Space;
 
 use super::Scenery;
+use super::space::{Room, setting};
 
 /// Samples along each side of a view of the plane.
 const SIDE: u32 = 48;
-/// Lines through the box of a scene of space.
-const LINES: u32 = 1024;
-/// Places at which each of them is looked at for a change of sign.
-const STEPS: u32 = 48;
-
 /// A point of the domain at which pictures are compared.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
@@ -19,14 +15,83 @@ pub struct Sample {
     pub point: [f64; 3],
     /// The footprint of a pixel there, world units.
     pub footprint: f64,
+    /// What is seen there.
+    pub subject: Subject,
 }
 
-/// Sample points of a view: pixels of the plane, one in each cell of a grid; of space, points of the surface.
+/// What is seen of a value at a point.
+#[derive(Clone, Copy, Debug)]
+pub enum Subject {
+    /// Colour and lines, all over the plane.
+    Picture,
+    /// A surface.
+    Surface,
+    /// Colour and lines on a plane with this normal.
+    Drawn([f64; 3]),
+    /// Lines alone, of the levels of a family, on such a plane.
+    Lined([f64; 3]),
+    /// A gas that emits and absorbs.
+    Matter,
+    /// A cloud.
+    Cloud,
+    /// Light around a surface.
+    Light,
+}
+
+/// Sample points of a view: pixels of the plane or of the sphere, one in each cell of a grid; of space, what its scene shows.
 pub fn samples(scenery: &Scenery, truth: &mut Evaluator) -> Vec<Sample> {
-    match scenery.program.pictures()[scenery.picture].scene.space {
+    let scene = scenery.program.pictures()[scenery.picture].scene;
+    match scene.space {
+        _ if scene.name == "sphere" => on_sphere(scenery),
         Space::Plane | Space::Complex => pixels(scenery),
-        Space::Space => crossings(scenery, truth),
+        Space::Space => Room::new(scenery, truth).samples(scene.name),
     }
+}
+
+/// What the pixels of [`pixels`] show of the Riemann sphere: z = (X + iY)/(1 + Z) of the point that is seen. A step on the
+/// sphere is (1 + |z|²)/2 of one in the plane of z, at right angles to the view.
+fn on_sphere(scenery: &Scenery) -> Vec<Sample> {
+    let of = |name: &str| setting(scenery.settings, name).unwrap_or_default();
+    let angles = [of("yaw")[0], of("pitch")[0]].map(f64::to_radians);
+    let [a, b, c] = of("rotation").map(f64::to_radians);
+    let turn = c + (of("spin")[0] * scenery.frame.time).to_radians();
+    let mut samples = pixels(scenery);
+    samples.retain_mut(|sample| {
+        let [x, y, _] = sample.point;
+        let depth = (1.0 - x * x - y * y).sqrt();
+        if depth.is_nan() {
+            return false;
+        }
+        let world = from_view([x, y, depth], angles);
+        let [x, y, z] = about_axes(world, [a, b, turn]);
+        let below = (1.0 + z).max(1e-15);
+        let point = [x / below, y / below];
+        let stretch = 0.5 * (1.0 + point[0] * point[0] + point[1] * point[1]);
+        sample.point = [point[0], point[1], 0.0];
+        sample.footprint *= stretch;
+        true
+    });
+    samples
+}
+
+/// A vector of the view (right, up, towards the viewer) in the world.
+fn from_view([x, y, z]: [f64; 3], [yaw, pitch]: [f64; 2]) -> [f64; 3] {
+    let (up, back) = (
+        y * pitch.cos() + z * pitch.sin(),
+        z * pitch.cos() - y * pitch.sin(),
+    );
+    [
+        back * yaw.cos() - x * yaw.sin(),
+        back * yaw.sin() + x * yaw.cos(),
+        up,
+    ]
+}
+
+/// A vector of the world in the coordinates of a body that is turned about x, then y, then z.
+fn about_axes([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 3] {
+    let (x, y) = (x * c.cos() + y * c.sin(), y * c.cos() - x * c.sin());
+    let (x, z) = (x * b.cos() - z * b.sin(), z * b.cos() + x * b.sin());
+    [x, y * a.cos() + z * a.sin(), z * a.cos() - y * a.sin()]
 }
 
 /// The middle of one pixel in each cell of the grid, as the template places it: an offset in single precision from
@@ -48,83 +113,18 @@ fn pixels(scenery: &Scenery) -> Vec<Sample> {
         samples.push(Sample {
             point: [cx + x, cy + y, 0.0],
             footprint,
+            subject: Subject::Picture,
         });
     }
     samples
 }
 
-/// Points of the surface f = level on random lines through the box, by bisection in f64.
-fn crossings(scenery: &Scenery, truth: &mut Evaluator) -> Vec<Sample> {
-    let value = |name, missing| {
-        let found = scenery.settings.iter().find(|s| s.spec.name == name);
-        found.map_or(missing, |s| s.value.to_array())
-    };
-    let (half, center) = (value("box", [1.0; 3]), value("center", [0.0; 3]));
-    let [level, ..] = value("level", [0.0; 3]);
-    let size = scenery.frame.size;
-    // the box fills the shorter side of the picture, or is smaller
-    let footprint =
-        2.0 * half.into_iter().fold(0.0, f64::max) / f64::from(size.width.min(size.height).max(1));
-    let inputs = truth.inputs().len();
-    let mut row = vec![f64::NAN; truth.outputs().len()];
-    let frame = scenery.frame;
-    let mut field = |p: [f64; 3]| {
-        truth.eval(
-            frame.params,
-            frame.time,
-            frame.pixel(),
-            &p[..inputs],
-            &mut row,
-        );
-        row.first().copied().unwrap_or(f64::NAN) - level
-    };
-    let mut random = Random::default();
-    let mut samples = Vec::new();
-    for _ in 0..LINES {
-        let mut inside = || [0, 1, 2].map(|k| center[k] + half[k] * (2.0 * random.unit() - 1.0));
-        let (a, b) = (inside(), inside());
-        let on = |t: f64| [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]));
-        if let Some(t) = first_root(|t| field(on(t))) {
-            samples.push(Sample {
-                point: on(t),
-                footprint,
-            });
-        }
-    }
-    samples
-}
-
-/// The first change of sign on [0, 1] that [`STEPS`] samples show, by bisection.
-fn first_root(mut f: impl FnMut(f64) -> f64) -> Option<f64> {
-    let mut before = f(0.0);
-    for k in 1..=STEPS {
-        let (mut low, mut high) = (
-            f64::from(k - 1) / f64::from(STEPS),
-            f64::from(k) / f64::from(STEPS),
-        );
-        let after = f(high);
-        if before * after < 0.0 {
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if f(middle) * before > 0.0 {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            return Some(0.5 * (low + high));
-        }
-        before = after;
-    }
-    None
-}
-
 /// Numbers in [0, 1), the same in every run: the additive recurrence by the golden ratio.
 #[derive(Default)]
-struct Random(u32);
+pub(super) struct Random(u32);
 
 impl Random {
-    fn unit(&mut self) -> f64 {
+    pub(super) fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(2_654_435_769);
         // scrambled, so that successive numbers are not on a line (the finaliser of MurmurHash3, A. Appleby)
         let mut word = self.0;
@@ -138,12 +138,35 @@ impl Random {
 mod tests {
     use super::*;
 
+    /// With the axes of compiler/shaders/scenes/sphere.wgsl, written out.
     #[test]
-    fn roots_are_found_by_bisection() {
-        let root = first_root(|t| t * t - 0.5).unwrap();
-        assert!((root - 0.5f64.sqrt()).abs() < 1e-15);
-        assert_eq!(first_root(|t| t + 1.0), None);
-        assert_eq!(first_root(|_| f64::NAN), None);
+    fn axes_are_those_of_the_sphere() {
+        let [a, b, c] = [0.3_f64, -0.7, 1.9];
+        let (sines, cosines) = ([a, b, c].map(f64::sin), [a, b, c].map(f64::cos));
+        let ([sa, sb, sc], [ca, cb, cc]) = (sines, cosines);
+        let axes = [
+            [cb * cc, cb * sc, -sb],
+            [sa * sb * cc - ca * sc, sa * sb * sc + ca * cc, sa * cb],
+            [ca * sb * cc + sa * sc, ca * sb * sc - sa * cc, ca * cb],
+        ];
+        let v = [0.2, -0.5, 0.8];
+        let found = about_axes(v, [a, b, c]);
+        for (axis, found) in axes.iter().zip(found) {
+            let wanted: f64 = axis.iter().zip(v).map(|(a, v)| a * v).sum();
+            assert!((found - wanted).abs() < 1e-14);
+        }
+        let (yaw, pitch) = (0.4_f64, 0.9_f64);
+        let back = [
+            pitch.cos() * yaw.cos(),
+            pitch.cos() * yaw.sin(),
+            pitch.sin(),
+        ];
+        let found = from_view([0.0, 0.0, 1.0], [yaw, pitch]);
+        assert!((0..3).all(|k| (found[k] - back[k]).abs() < 1e-14));
+        let right = from_view([1.0, 0.0, 0.0], [yaw, pitch]);
+        assert!((right[0] + yaw.sin()).abs() < 1e-14 && right[2].abs() < 1e-14);
+        let up = from_view([0.0, 1.0, 0.0], [yaw, pitch]);
+        assert!((up[2] - pitch.cos()).abs() < 1e-14);
     }
 
     #[test]

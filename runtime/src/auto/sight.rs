@@ -6,7 +6,9 @@ use pullback_compiler::SettingValue;
 use pullback_compiler::scene::Space;
 
 use super::Scenery;
-use super::points::Sample;
+use super::matter::Matter;
+use super::points::{Sample, Subject};
+use super::space::scale_and_spacing;
 
 /// Change of a colour, of 1, below which it is not seen: half a step of 8 bits.
 pub const COLOUR: f64 = 1.0 / 512.0;
@@ -88,6 +90,9 @@ struct Pattern {
 pub struct Eye {
     space: Space,
     value: Pattern,
+    /// Of the levels of a family, on walls.
+    levels: Pattern,
+    matter: Matter,
     /// Whether lines and colours of a real function are of log |f|.
     logarithmic: bool,
 }
@@ -123,31 +128,65 @@ impl Eye {
             },
             Space::Plane | Space::Space => {
                 let scale = positive(setting("color_scale", 1.0)).unwrap_or(1.0);
-                let spacing = positive(setting("spacing", 0.0));
+                // `spacing` of a family is between levels: its contour lines have their own
+                let own = if has("contour_spacing") {
+                    "contour_spacing"
+                } else {
+                    "spacing"
+                };
+                let spacing = positive(setting(own, 0.0));
                 Pattern {
                     lines: Lines::Every(spacing.unwrap_or(0.25 * scale)),
                     colour: scale,
                 }
             }
         };
+        let (_, between) = scale_and_spacing(scenery.settings);
         Self {
             space,
             value,
+            levels: Pattern {
+                lines: Lines::Every(between),
+                colour: f64::INFINITY,
+            },
+            matter: Matter::new(scenery.settings),
             logarithmic: adaptive,
         }
     }
 
     /// What is seen of the difference between the true value with its derivatives and that of a tier.
     pub fn difference(&self, sample: &Sample, truth: &[f64], found: &[f64]) -> Sight {
-        match self.space {
-            Space::Plane => self.level(sample, truth, found),
-            Space::Complex => self.phase(sample, truth, found),
-            Space::Space => surface(sample, truth, found),
+        match sample.subject {
+            Subject::Picture if self.space == Space::Complex => self.phase(sample, truth, found),
+            Subject::Picture => self.level(sample, truth, found, self.value),
+            Subject::Surface => surface(sample, truth, found),
+            Subject::Drawn(normal) => self.on_plane(sample, normal, truth, found, self.value),
+            Subject::Lined(normal) => self.on_plane(sample, normal, truth, found, self.levels),
+            Subject::Matter => self.matter.gas(truth, found),
+            Subject::Cloud => self.matter.cloud(truth, found),
+            Subject::Light => self.matter.glow(truth, found),
         }
     }
 
-    /// Of a real function of the plane.
-    fn level(&self, sample: &Sample, truth: &[f64], found: &[f64]) -> Sight {
+    /// Of a function of space on a plane: of its gradient what lies in the plane counts.
+    fn on_plane(
+        &self,
+        sample: &Sample,
+        normal: [f64; 3],
+        truth: &[f64],
+        found: &[f64],
+        pattern: Pattern,
+    ) -> Sight {
+        let across: f64 = truth[1..].iter().zip(normal).map(|(g, n)| g * n).sum();
+        let mut flat = truth.to_vec();
+        for (slot, n) in flat[1..].iter_mut().zip(normal) {
+            *slot -= across * n;
+        }
+        self.level(sample, &flat, found, pattern)
+    }
+
+    /// Of a real function of the plane, or on one.
+    fn level(&self, sample: &Sample, truth: &[f64], found: &[f64], pattern: Pattern) -> Sight {
         let (&value, &got) = match (truth.first(), found.first()) {
             (Some(value), Some(got)) => (value, got),
             _ => return Sight::default(),
@@ -167,8 +206,7 @@ impl Eye {
         } else {
             1.0
         };
-        self.value
-            .seen(value / size, (got - value).abs() / size, rate / size)
+        pattern.seen(value / size, (got - value).abs() / size, rate / size)
     }
 
     /// Of a complex function.
@@ -237,6 +275,7 @@ fn surface(sample: &Sample, truth: &[f64], found: &[f64]) -> Sight {
         .sum::<f64>();
     Sight {
         colour: turn.sqrt(),
+        // of what float32 makes of f - level
         displacement: (found[0] - truth[0]).abs() / (slope * sample.footprint),
     }
 }

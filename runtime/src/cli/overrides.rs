@@ -163,6 +163,11 @@ fn components(spec: &SettingSpec, value: &Value) -> Result<DVec3, String> {
                 .ok_or_else(|| format!("`{name}` is one of {}", words.join(", ")))?;
             return Ok(DVec3::splat(f64::from(place)));
         }
+        SettingKind::Function => {
+            return Err(format!(
+                "`{name}` is a function of the program: name it in the braces of its `show`"
+            ));
+        }
         SettingKind::Real | SettingKind::Integer => 1,
         SettingKind::Vec2 => 2,
         SettingKind::Vec3 => 3,

@@ -396,6 +396,7 @@ pub(super) fn written(setting: &SettingValue) -> String {
         SettingKind::Vec2 => format!("({x}, {y})"),
         SettingKind::Vec3 => format!("({x}, {y}, {z})"),
         SettingKind::Choice(_) => setting.word().unwrap_or_default().to_owned(),
+        SettingKind::Function => "as in the text".to_owned(),
     }
 }
 

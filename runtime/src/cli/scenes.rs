@@ -65,6 +65,7 @@ fn default(spec: &'static SettingSpec) -> String {
 fn values(spec: &SettingSpec) -> String {
     let kind = match spec.kind {
         SettingKind::Choice(words) => return words.join(" or "),
+        SettingKind::Function => return "name of a function".to_owned(),
         SettingKind::Real => "number",
         SettingKind::Integer => "whole number",
         SettingKind::Vec2 => "2 numbers",

@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::available_parallelism;
 
 use pullback_compiler::lower::Format;
+use pullback_compiler::scene::setting_component;
 use pullback_compiler::{SceneModule, SettingValue};
 
 use super::fault::Fault;
@@ -319,8 +320,7 @@ impl<'a> Inputs<'a> {
         if let Some(path) = component.path.strip_prefix("settings.") {
             // of a structure within, the last name is the setting's
             let name = path.rsplit('.').next().unwrap_or(path);
-            let setting = self.settings.iter().find(|s| s.spec.name == name)?;
-            return setting.value.to_array().get(k).copied();
+            return setting_component(self.settings, name, k);
         }
         let size = [frame.size.width, frame.size.height];
         Some(match component.path.as_str() {

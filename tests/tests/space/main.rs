@@ -8,6 +8,7 @@ mod cutaway;
 mod drawing;
 mod extremes;
 mod glow;
+mod lights;
 mod lines;
 mod nested;
 mod projection;

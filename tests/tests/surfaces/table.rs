@@ -170,7 +170,7 @@ fn every_camera_finds_the_surfaces() {
         ("up", [1.0, 0.0, 2.0]),
     ];
     const PARALLEL: (&str, [f64; 3]) = ("projection", [1.0; 3]);
-    let cameras: [(&str, Vec<(&str, [f64; 3])>); 4] = [
+    let cameras = [
         ("orbit", vec![("yaw", [75.0; 3]), ("pitch", [-40.0; 3])]),
         ("look-at", LOOK_AT.to_vec()),
         ("orthographic", vec![PARALLEL]),
