@@ -21,7 +21,7 @@ struct View {
 // Which samples of each pixel `sum_main` takes: the first, and how many. They are numbered row by row.
 @group(0) @binding(5) var<uniform> part: vec2u;
 
-// The scene's picture: linear rgb and alpha at a point of the whole image.
+// The scene's picture: linear rgb, premultiplied by alpha, and alpha at a point of the whole image.
 fn shade(pixel: vec2f) -> vec4f { return vec4f(); }
 // Shared: linear light to sRGB.
 fn srgb_encode(linear: vec3f) -> vec3f { return vec3f(); }
@@ -30,10 +30,14 @@ fn srgb_encode(linear: vec3f) -> vec3f { return vec3f(); }
 fn with_samples(before: vec4f, corner: vec2f, first: u32, end: u32) -> vec4f {
     let count = max(view.samples, 1u);
     let step = 1.0 / f32(count);
+    var place = vec2u(first % count, first / count);
     var sum = before;
     for (var k = first; k < end; k++) {
-        let place = vec2f(f32(k % count), f32(k / count));
-        sum += shade(corner + (place + 0.5) * step);
+        sum += shade(corner + (vec2f(place) + 0.5) * step);
+        place.x++;
+        if place.x == count {
+            place = vec2u(0u, place.y + 1u);
+        }
     }
     return sum;
 }
@@ -61,11 +65,13 @@ fn dither_threshold(pixel: vec2u) -> f32 {
     return (f32(lattice >> 16u) + 0.5) / 65536.0;
 }
 
-// A mean as a displayable colour, to be rounded to 8 bits by the caller. A value that 8 bits hold exactly stays as it is.
+// A mean as a displayable colour, not premultiplied, to be rounded to 8 bits by the caller. A value that 8 bits hold exactly stays
+// as it is.
 fn encoded(mean: vec4f, corner: vec2f) -> vec4f {
-    let encoded = srgb_encode(clamp(mean.rgb, vec3f(0.0), vec3f(1.0)));
+    let alpha = clamp(mean.a, 0.0, 1.0);
+    let encoded = srgb_encode(clamp(mean.rgb / max(alpha, 1e-6), vec3f(0.0), vec3f(1.0)));
     let noise = (dither_threshold(vec2u(corner)) - 0.5) / 255.0;
-    return vec4f(clamp(encoded + noise, vec3f(0.0), vec3f(1.0)), clamp(mean.a, 0.0, 1.0));
+    return vec4f(clamp(encoded + noise, vec3f(0.0), vec3f(1.0)), alpha);
 }
 
 // The displayable colour of a pixel of this tile.
@@ -94,7 +100,7 @@ fn compute_main(@builtin(global_invocation_id) id: vec3u) {
     image[id.y * view.tile_size.x + id.x] = pack4x8unorm(encoded_pixel(id.xy));
 }
 
-// Four words a pixel: linear rgb and alpha as they are, beyond 1 too.
+// Four words a pixel: linear rgb, premultiplied, and alpha as they are, beyond 1 too.
 @compute @workgroup_size(8, 8)
 fn linear_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
