@@ -20,4 +20,6 @@ pub mod mutate;
 pub mod pictures;
 #[cfg(feature = "gpu")]
 pub mod stills;
+#[cfg(feature = "gpu")]
+pub mod twins;
 pub mod units;

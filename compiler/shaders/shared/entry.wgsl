@@ -30,10 +30,14 @@ fn srgb_encode(linear: vec3f) -> vec3f { return vec3f(); }
 fn with_samples(before: vec4f, corner: vec2f, first: u32, end: u32) -> vec4f {
     let count = max(view.samples, 1u);
     let step = 1.0 / f32(count);
+    var place = vec2u(first % count, first / count);
     var sum = before;
     for (var k = first; k < end; k++) {
-        let place = vec2f(f32(k % count), f32(k / count));
-        sum += shade(corner + (place + 0.5) * step);
+        sum += shade(corner + (vec2f(place) + 0.5) * step);
+        place.x++;
+        if place.x == count {
+            place = vec2u(0u, place.y + 1u);
+        }
     }
     return sum;
 }
