@@ -155,11 +155,9 @@ fn draw(
     let bytes = scene.pack_settings(&subject.settings);
     let frame = subject.frame(&bytes);
     let mut pixels = Vec::new();
-    Artist::new(computer, &scene, frame.pipeline)?.render(
-        &frame,
-        &subject.settings,
-        &mut pixels,
-    )?;
+    Artist::new(computer, &scene, frame.pipeline)?
+        .render(&frame, &subject.settings, &mut pixels)
+        .map_err(|error| subject.source.blamed(error.into(), console))?;
     Ok(pixels)
 }
 

@@ -1,6 +1,48 @@
 //! What can go wrong in the executor.
 
 use std::fmt;
+use std::ops::Range;
+
+use pullback_compiler::module::DEMANDS;
+
+/// A loop of a module.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LoopSite {
+    /// The function that it is in.
+    pub function: String,
+    /// Its place in the text that the function is from: the user's of a formula, else that of the shader.
+    pub span: Option<Range<usize>>,
+    /// Whether it is one of the formula.
+    pub is_of_formula: bool,
+}
+
+impl LoopSite {
+    pub(super) fn new(function: &naga::Function, span: naga::Span) -> Self {
+        let span = span.to_range().filter(|span| !span.is_empty());
+        let function = function.name.clone().unwrap_or_default();
+        let is_of_formula = DEMANDS.contains(&function.as_str()) || function == "evaluate";
+        Self {
+            function,
+            span,
+            is_of_formula,
+        }
+    }
+
+    /// Its place in the user's text, if it comes from the formula.
+    #[must_use]
+    pub fn in_formula(&self) -> Option<Range<usize>> {
+        self.span.clone().filter(|_| self.is_of_formula)
+    }
+}
+
+impl fmt::Display for LoopSite {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.function.as_str() {
+            "" => f.write_str("in the entry point"),
+            name => write!(f, "in `{name}`"),
+        }
+    }
+}
 
 /// Why a module cannot be run, or a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,13 +60,31 @@ pub enum Fault {
     Steps {
         /// How many they may take.
         limit: u64,
+        /// The loop that took the most of them.
+        place: Option<LoopSite>,
+    },
+    /// A loop went on for longer than it may.
+    Turns {
+        /// How many steps it may take from when it is entered until it is left.
+        limit: u64,
+        /// The loop.
+        place: Option<LoopSite>,
     },
     /// The run was cancelled.
     Cancelled,
 }
 
 impl Fault {
-    pub(super) fn unsupported(construct: impl Into<String>) -> Self {
+    /// The loop of the formula that is to blame, by its place in the user's text.
+    #[must_use]
+    pub fn in_formula(&self) -> Option<Range<usize>> {
+        match self {
+            Self::Steps { place, .. } | Self::Turns { place, .. } => place.as_ref()?.in_formula(),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn unsupported(construct: impl Into<String>) -> Self {
         Self::Unsupported {
             construct: construct.into(),
             function: String::new(),
@@ -66,10 +126,20 @@ impl fmt::Display for Fault {
                 Ok(())
             }
             Self::Missing(name) => write!(f, "the shader has no function `{name}`"),
-            Self::Steps { limit } => write!(
-                f,
-                "the loops of one pixel take more than {limit} steps; give them a smaller bound"
-            ),
+            Self::Steps { limit, place } => {
+                write!(f, "the loops of one pixel take more than {limit} steps")?;
+                if let Some(place) = place {
+                    write!(f, ", most of them {place}")?;
+                }
+                f.write_str("; give them a smaller bound")
+            }
+            Self::Turns { limit, place } => {
+                write!(f, "a loop takes more than {limit} steps at a time")?;
+                match place {
+                    Some(place) => write!(f, ": {place}"),
+                    None => Ok(()),
+                }
+            }
             Self::Cancelled => f.write_str("cancelled"),
         }
     }

@@ -9,7 +9,7 @@ use pullback_compiler::{SceneModule, SettingValue};
 use super::fault::Fault;
 use super::lanes::LANES;
 use super::machine::{Limits, MAX_STEPS, Machine};
-use super::program::{Component, Options, Program, Start};
+use super::program::{Component, Options, Program, Start, Watched};
 use super::{Arithmetic, Observer};
 use crate::Error;
 use crate::pool::spread;
@@ -52,7 +52,12 @@ impl Painter {
         };
         Ok(Self {
             words: pipeline.bytes_per_pixel() / 4,
-            ..Self::start(scene, Start::EntryPoint(entry), arithmetic, false)?
+            ..Self::start(
+                scene,
+                Start::EntryPoint(entry),
+                arithmetic,
+                Watched::Nothing,
+            )?
         })
     }
 
@@ -60,8 +65,12 @@ impl Painter {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn traced(scene: &SceneModule, arithmetic: Arithmetic) -> Result<Self, Error> {
-        Self::start(scene, Start::Function("shade"), arithmetic, true)
+    pub fn watched(
+        scene: &SceneModule,
+        arithmetic: Arithmetic,
+        watched: Watched,
+    ) -> Result<Self, Error> {
+        Self::start(scene, Start::Function("shade"), arithmetic, watched)
     }
 
     /// Translates the scene to be asked for colours at points of the picture: [`Self::shade`].
@@ -69,20 +78,25 @@ impl Painter {
     /// # Errors
     /// As [`Self::new`].
     pub fn shader(scene: &SceneModule, arithmetic: Arithmetic) -> Result<Self, Error> {
-        Self::start(scene, Start::Function("shade"), arithmetic, false)
+        Self::start(
+            scene,
+            Start::Function("shade"),
+            arithmetic,
+            Watched::Nothing,
+        )
     }
 
     fn start(
         scene: &SceneModule,
         start: Start,
         arithmetic: Arithmetic,
-        traced: bool,
+        watched: Watched,
     ) -> Result<Self, Error> {
         let format = scene.tier.precision.format();
         let options = Options {
             arithmetic,
             format,
-            traced,
+            watched,
         };
         Ok(Self {
             program: Program::new(&scene.module, &scene.info, start, options)?,
@@ -208,6 +222,7 @@ impl Painter {
         let limits = Limits {
             steps: self.steps,
             cancel: Some(cancel),
+            ..Limits::default()
         };
         for y in (0..tile.height).step_by(SIDE as usize) {
             for x in (0..tile.width).step_by(SIDE as usize) {
@@ -263,6 +278,7 @@ impl Painter {
         let limits = Limits {
             steps: self.steps,
             cancel: None,
+            ..Limits::default()
         };
         let mut colours = Vec::with_capacity(points.len());
         for group in points.chunks(LANES) {
