@@ -325,7 +325,8 @@ fn odd_pixels_are_found() {
         for found in odd("(if x > 0 then log(x) else x) + √y", "64x48", way) {
             assert_eq!(found["nan"]["pixels"], 64 * 24);
             assert_eq!(found["nan"]["operations"].as_array().unwrap().len(), 1);
-            assert_eq!(found["nan"]["operations"][0]["operation"], "sqrt(y)");
+            let culprit = found["nan"]["operations"][0]["operation"].as_str().unwrap();
+            assert!(culprit.ends_with("sqrt(y)"), "{culprit}");
         }
     }
 }
@@ -333,7 +334,7 @@ fn odd_pixels_are_found() {
 /// What leaves the range of single precision is infinite there, and a number in double precision.
 #[test]
 fn each_arithmetic_has_odd_pixels_of_its_own() {
-    let all = odd("exp(50 x)", "64x8", &["--on", "ieee32,reference"]);
+    let all = odd("exp(9 x)", "64x8", &["--on", "ieee32,reference"]);
     let infinite = |k: usize| all[k]["infinite"]["pixels"].as_u64().unwrap();
     assert!(infinite(0) > 0, "{all:?}");
     assert_eq!(infinite(1), 0, "{all:?}");
