@@ -17,8 +17,8 @@ use crate::cli::{Console, Input, Numbers, Tier, spelling};
 /// `gpu:accurate`: what draws a picture.
 #[derive(Clone, Debug)]
 pub(in crate::cli) struct Side {
-    place: Place,
-    precision: Option<Tier>,
+    pub(in crate::cli) place: Place,
+    pub(in crate::cli) precision: Option<Tier>,
 }
 
 impl FromStr for Side {
