@@ -110,3 +110,82 @@ fn odd_pixels() {
         v["machines"][1].as_object_mut().unwrap().remove("infinite");
     });
 }
+
+/// Both tables of a comparison of many pictures.
+#[test]
+fn differences_of_the_gallery() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, formula) in [
+        ("a.pull", "sin(x^2 + y^2)"),
+        ("b.pull", "w² where w = z + 1"),
+    ] {
+        std::fs::write(folder.path().join(name), formula).unwrap();
+    }
+    let computers = [
+        "--adapter",
+        "ieee32",
+        "--compare",
+        "ieee32:fast",
+        "--tile",
+        "24x18",
+    ];
+    let files = ["--json", "a.json", "--markdown", "a.md"];
+    let arguments = [&["gallery", "."], &computers[..], &files].concat();
+    let (code, out, errors) = pullback(folder.path(), &arguments);
+    assert_eq!((code, out.as_str()), (0, ""), "{errors}");
+    let text = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let value: Value = serde_json::from_str(&text("a.json")).unwrap();
+    let schema = read("gallery-1");
+    assert_eq!(misfit(&schema, &schema, &value, ""), None);
+    let names: Vec<&Value> = value["pictures"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|p| &p["name"])
+        .collect();
+    assert_eq!(names, ["a", "b"]);
+    let table = text("a.md");
+    assert!(
+        table.contains("| a | levels | ") && table.contains("| b | domain | "),
+        "{table}"
+    );
+    refused("gallery-1", &value, |v| {
+        v["pictures"][0]["max"] = Value::Null
+    });
+    let alone = [&["gallery", "."], &computers[..]].concat();
+    let (_, out, _) = pullback(folder.path(), &alone);
+    assert_eq!(out, table);
+}
+
+/// FLIP of a pixel from which on a difference can be seen.
+const SEEN: f64 = 0.05;
+
+/// The table in the documents has every picture, and a reason for each that can be told from the truth.
+#[test]
+fn every_difference_of_the_gallery_has_a_reason() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+    let text = std::fs::read_to_string(docs.join("gallery-differences.md")).unwrap();
+    let (table, reasons) = text.split_once("## Reasons").unwrap();
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .filter(|line| line.starts_with("| ") && line.contains(" % |"))
+        .map(|line| line.split('|').map(str::trim).collect())
+        .collect();
+    let mut drawn: Vec<String> = std::fs::read_dir(docs.join("gallery"))
+        .unwrap()
+        .filter_map(|entry| entry.unwrap().file_name().into_string().ok())
+        .filter_map(|name| Some(name.strip_suffix(".pull")?.to_owned()))
+        .collect();
+    drawn.sort();
+    let told: Vec<&str> = rows.iter().map(|row| row[1]).collect();
+    assert_eq!(told, drawn);
+    for row in &rows {
+        let seen: f64 = row[7].parse().unwrap();
+        let named = format!("`{}`", row[1]);
+        assert_eq!(
+            seen >= SEEN,
+            reasons.contains(&named),
+            "{named}: FLIP {seen}"
+        );
+    }
+}

@@ -20,8 +20,8 @@ use pullback_runtime::executor::{
 };
 use pullback_runtime::{Error, Frame, Pipeline, Size, View};
 
-// one loop of the language in every sample
-const _: () = assert!(MAX_STEPS > 100_000 * 16 * 16);
+// what the language allows: 100,000 steps of each of eight loops within one another
+const _: () = assert!(MAX_STEPS > 8 * 100_000);
 // the longest loops of the language, and of a scene's settings
 const _: () = assert!(MAX_FORMULA_TURNS > 100_000 && MAX_TURNS > 8192);
 
@@ -92,7 +92,7 @@ fn loops_end_at_the_bound_with_a_message() {
     assert!(matches!(fault, Fault::Steps { limit: 1000, .. }));
     assert_eq!(
         fault.to_string(),
-        "the loops of one pixel take more than 1000 steps, most of them in `test`; give them a smaller bound"
+        "the loops of one sample take more than 1000 steps, most of them in `test`; give them a smaller bound"
     );
     let endless = run(&program, &[0, 5, u64::from(u32::MAX)], steps(100_000));
     assert!(matches!(endless, Err(Fault::Steps { limit: 100_000, .. })));
@@ -168,6 +168,27 @@ fn endless_loops_are_told_soon() {
         println!("{body}: {took:?}");
         assert!(took < SOON, "{body}: {took:?}");
     }
+}
+
+/// Each sample counts by itself.
+#[test]
+fn samples_do_not_count_together() {
+    let program = program(
+        "fn work(n: u32) -> u32 { var k = 0u; loop { if k == n { return k; } k += 1u; } return 0u; }
+        fn pixel_mean(n: u32) -> u32 {
+            var sum = 0u;
+            for (var j = 0u; j < 4u; j++) { for (var i = 0u; i < 4u; i++) { sum += work(n); } }
+            return sum;
+        }
+        fn test(n: u32) -> u32 { return pixel_mean(n); }",
+    )
+    .expect("it is translated");
+    assert_eq!(run(&program, &[20], steps(22)), Ok(vec![320]));
+    let failed = run(&program, &[20], steps(19));
+    assert!(
+        matches!(failed, Err(Fault::Steps { limit: 19, .. })),
+        "{failed:?}"
+    );
 }
 
 /// The formula's loop is told by its place in the user's text.

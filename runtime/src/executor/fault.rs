@@ -12,26 +12,45 @@ pub struct LoopSite {
     pub function: String,
     /// Its place in the text that the function is from: the user's of a formula, else that of the shader.
     pub span: Option<Range<usize>>,
-    /// Whether it is one of the formula.
-    pub is_of_formula: bool,
+    /// What it repeats.
+    pub kind: LoopKind,
 }
+
+/// What a loop repeats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LoopKind {
+    /// Steps of the formula.
+    Formula,
+    /// Samples of a pixel.
+    Samples,
+    /// Something of the scene, or of a library.
+    Scene,
+}
+
+/// The function of all scenes that takes the samples of a pixel (`shared/entry.wgsl`).
+const SAMPLING: &str = "pixel_mean";
 
 impl LoopSite {
     pub(super) fn new(function: &naga::Function, span: naga::Span) -> Self {
         let span = span.to_range().filter(|span| !span.is_empty());
         let function = function.name.clone().unwrap_or_default();
-        let is_of_formula = DEMANDS.contains(&function.as_str()) || function == "evaluate";
+        let kind = match function.as_str() {
+            SAMPLING => LoopKind::Samples,
+            "evaluate" => LoopKind::Formula,
+            name if DEMANDS.contains(&name) => LoopKind::Formula,
+            _ => LoopKind::Scene,
+        };
         Self {
             function,
             span,
-            is_of_formula,
+            kind,
         }
     }
 
     /// Its place in the user's text, if it comes from the formula.
     #[must_use]
     pub fn in_formula(&self) -> Option<Range<usize>> {
-        self.span.clone().filter(|_| self.is_of_formula)
+        self.span.clone().filter(|_| self.kind == LoopKind::Formula)
     }
 }
 
@@ -127,7 +146,7 @@ impl fmt::Display for Fault {
             }
             Self::Missing(name) => write!(f, "the shader has no function `{name}`"),
             Self::Steps { limit, place } => {
-                write!(f, "the loops of one pixel take more than {limit} steps")?;
+                write!(f, "the loops of one sample take more than {limit} steps")?;
                 if let Some(place) = place {
                     write!(f, ", most of them {place}")?;
                 }

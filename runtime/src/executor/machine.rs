@@ -12,8 +12,8 @@ use super::lanes::{CHUNKS, Chunk, LANES, Mask, Slot, TRUE, WIDTH};
 use super::program::Program;
 use super::trace::{Event, Observer};
 
-/// Steps of all loops together that an invocation may take, unless told otherwise.
-pub const MAX_STEPS: u64 = 1 << 25;
+/// Steps of all loops together that a sample of a pixel, or a row, may take, unless told otherwise.
+pub const MAX_STEPS: u64 = 1 << 22;
 
 /// Steps that one loop of a scene may take from when it is entered until it is left, unless told otherwise: twice as many as
 /// any setting asks for.
@@ -25,7 +25,7 @@ pub const MAX_FORMULA_TURNS: u64 = 1 << 17;
 /// Bounds of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits<'a> {
-    /// Steps that the loops of one invocation may take in all.
+    /// Steps that the loops of one invocation may take in all; of a pixel, for each of its samples.
     pub steps: u64,
     /// Steps that one loop of a scene may take from when it is entered until it is left.
     pub turns: u64,
@@ -54,7 +54,7 @@ pub struct Machine<'p> {
     mask: Mask,
     returns: Vec<(usize, Slot)>,
     buffers: Vec<Vec<u64>>,
-    /// Steps of each lane's loops.
+    /// Steps of each lane's loops, in the sample at hand.
     steps: Vec<Chunk>,
     /// Steps of the group's loops, at least as many as any lane's.
     group_steps: u64,
@@ -150,10 +150,17 @@ impl<'p> Machine<'p> {
     ) -> Result<(), Fault> {
         self.mask = Mask::first(count.min(LANES));
         self.returns.clear();
+        self.begin_sample();
+        self.execute(limits, observer)
+    }
+
+    /// Counts steps in all from here on.
+    fn begin_sample(&mut self) {
         self.steps.fill(Chunk::ZERO);
         self.group_steps = 0;
-        self.turns.fill(Turns::default());
-        self.execute(limits, observer)
+        for turns in &mut self.turns {
+            turns.in_all = 0;
+        }
     }
 
     fn execute(&mut self, limits: Limits, observer: &mut dyn Observer) -> Result<(), Fault> {

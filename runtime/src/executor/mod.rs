@@ -20,7 +20,7 @@ mod shape;
 mod trace;
 mod translate;
 
-pub use fault::{Fault, LoopSite};
+pub use fault::{Fault, LoopKind, LoopSite};
 pub use machine::{Limits, MAX_FORMULA_TURNS, MAX_STEPS, MAX_TURNS, Machine};
 pub use painter::Painter;
 pub use program::{Buffer, Component, Options, Program, Start, Watched};

@@ -32,7 +32,7 @@ pub struct Painter {
     format: Format,
     /// Words of a pixel in `image`.
     words: usize,
-    /// Steps that the loops of one pixel may take in all.
+    /// Steps that the loops of one sample of a pixel may take in all.
     pub steps: u64,
 }
 

@@ -4,7 +4,7 @@ use std::sync::atomic::Ordering;
 
 use super::{Limits, Machine};
 use crate::executor::code::{Inst, Op};
-use crate::executor::fault::{Fault, LoopSite};
+use crate::executor::fault::{Fault, LoopKind, LoopSite};
 use crate::executor::lanes::{CHUNKS, Chunk, Mask};
 
 impl Machine<'_> {
@@ -84,14 +84,16 @@ impl Machine<'_> {
         turns.since_entered += 1;
         turns.in_all += 1;
         let place = &self.program.loops[this];
-        let limit = if place.is_of_formula {
-            limits.formula_turns
-        } else {
-            limits.turns
+        let limit = match place.kind {
+            LoopKind::Formula => limits.formula_turns,
+            LoopKind::Scene | LoopKind::Samples => limits.turns,
         };
         if turns.since_entered > limit {
             let place = Some(place.clone());
             return Err(Fault::Turns { limit, place });
+        }
+        if place.kind == LoopKind::Samples {
+            self.begin_sample();
         }
         self.group_steps += 1;
         if self.group_steps.is_multiple_of(1024)
