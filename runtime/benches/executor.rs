@@ -1,5 +1,5 @@
 //! Times of the gallery's pictures on the processor, beside the software adapter's for the same pictures in the same run,
-//! with the memory that each core needs and how much the pictures differ.
+//! with the memory that each core needs, the most that the process took, and how much the pictures differ.
 //!
 //! `cargo bench -p pullback-runtime --bench executor -- [--size N] [--samples N] [--only NAME] [--alone]`
 //!
@@ -101,7 +101,17 @@ fn run(options: &Options) -> Result<(), String> {
         let program = compile(&text).program.ok_or(format!("{name} has errors"))?;
         println!("| {name} {} |", row(&program, options, gpu.as_ref())?);
     }
+    if let Some(kib) = most_memory() {
+        println!("\nmost memory of the whole run: {} MiB", kib / 1024);
+    }
     Ok(())
+}
+
+/// The greatest resident memory of this process in KiB, from Linux.
+fn most_memory() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.split_whitespace().next()?.parse().ok()
 }
 
 fn row(program: &Program, options: &Options, gpu: Option<&Gpu>) -> Result<String, String> {

@@ -1,8 +1,12 @@
 //! `pullback check --format json`: what is written fits the schema in `docs/schema`, and says what is there.
 
+#[path = "shared/schema.rs"]
+mod schema;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use schema::misfit;
 use serde_json::{Value, json};
 
 fn root() -> PathBuf {
@@ -10,91 +14,7 @@ fn root() -> PathBuf {
 }
 
 fn schema() -> Value {
-    let text = std::fs::read_to_string(root().join("docs/schema/diagnostics-1.json")).unwrap();
-    serde_json::from_str(&text).unwrap()
-}
-
-/// Says where a value does not fit a schema. Knows the words that our schema uses, and refuses others.
-fn misfit(schema: &Value, root: &Value, value: &Value, path: &str) -> Option<String> {
-    let rules = schema.as_object().unwrap();
-    for (word, rule) in rules {
-        let fits = match word.as_str() {
-            "$schema" | "title" | "description" | "$defs" => true,
-            "$ref" => {
-                let name = rule.as_str().unwrap().strip_prefix("#/$defs/").unwrap();
-                if let Some(problem) = misfit(&root["$defs"][name], root, value, path) {
-                    return Some(problem);
-                }
-                true
-            }
-            "type" => match rule {
-                Value::Array(types) => types.iter().any(|ty| has_type(value, ty)),
-                ty => has_type(value, ty),
-            },
-            "const" => value == rule,
-            "enum" => rule.as_array().unwrap().contains(value),
-            "minimum" => value.as_f64().unwrap() >= rule.as_f64().unwrap(),
-            "pattern" => {
-                assert_eq!(rule, "^[a-z0-9-]+$");
-                let kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-                value
-                    .as_str()
-                    .is_some_and(|text| !text.is_empty() && text.chars().all(kebab))
-            }
-            "required" => {
-                let names = rule.as_array().unwrap().iter();
-                names
-                    .map(|name| name.as_str().unwrap())
-                    .all(|name| value.get(name).is_some())
-            }
-            "properties" => {
-                let known = rule.as_object().unwrap();
-                // Readers accept more fields; here, one that the schema does not describe is a mistake.
-                if let Some(name) = value
-                    .as_object()
-                    .and_then(|found| found.keys().find(|name| !known.contains_key(*name)))
-                {
-                    return Some(format!("{path}/{name} is not described"));
-                }
-                for (name, rule) in known {
-                    let part = value.get(name);
-                    let problem =
-                        part.and_then(|part| misfit(rule, root, part, &format!("{path}/{name}")));
-                    if problem.is_some() {
-                        return problem;
-                    }
-                }
-                true
-            }
-            "items" => {
-                for (index, item) in value.as_array().into_iter().flatten().enumerate() {
-                    let problem = misfit(rule, root, item, &format!("{path}/{index}"));
-                    if problem.is_some() {
-                        return problem;
-                    }
-                }
-                true
-            }
-            other => panic!("the schema has the word {other}, which this test does not know"),
-        };
-        if !fits {
-            return Some(format!("{path}: {value} does not fit {word}: {rule}"));
-        }
-    }
-    None
-}
-
-fn has_type(value: &Value, ty: &Value) -> bool {
-    match ty.as_str().unwrap() {
-        "object" => value.is_object(),
-        "array" => value.is_array(),
-        "string" => value.is_string(),
-        "integer" => value.is_u64() || value.is_i64(),
-        "number" => value.is_number(),
-        "boolean" => value.is_boolean(),
-        "null" => value.is_null(),
-        other => panic!("unknown type {other}"),
-    }
+    schema::read("diagnostics-1")
 }
 
 /// Checks these inputs in a folder; the exit code, the object, and the standard error.

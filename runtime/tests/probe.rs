@@ -277,64 +277,85 @@ fn pixels_of_every_scene() {
     }
 }
 
-/// log x is NaN left of 0, and infinite in the column of pixels at 0.
-#[test]
-fn odd_pixels_are_found() {
-    if Gpu::open(&AdapterChoice::Software).is_err() {
-        return;
-    }
+/// What `--nan` finds in a formula, a machine after the other.
+fn odd(formula: &str, size: &str, machines: &[&str]) -> Vec<serde_json::Value> {
     let folder = tempfile::tempdir().unwrap();
     let arguments = [
-        "probe",
-        "y + log(x)",
-        "--nan",
-        "--size",
-        "65x48",
-        "--adapter",
-        "software",
+        "probe", formula, "--nan", "--size", size, "--format", "json",
     ];
-    let (code, json, errors) = pullback(
-        folder.path(),
-        &[&arguments[..], &["--format", "json"]].concat(),
-    );
+    let (code, json, errors) = pullback(folder.path(), &[&arguments[..], machines].concat());
     assert_eq!(code, 0, "{errors}");
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(json["nan"]["pixels"], 32 * 48);
-    assert_eq!(json["infinite"]["pixels"], 48);
-    assert_eq!(json["infinite"]["first"], serde_json::json!([32, 0]));
-    for kind in ["nan", "infinite"] {
-        let operation = &json[kind]["operations"][0];
-        assert_eq!(operation["operation"], "log(x)", "{kind}");
-        assert_eq!(operation["span"]["start"], 4);
-        assert_eq!(operation["pixels"], json[kind]["traced"]);
+    json["machines"].as_array().unwrap().clone()
+}
+
+/// The ways in which odd pixels are looked for, and the names of the machines.
+fn ways() -> Vec<(&'static [&'static str], &'static [&'static str])> {
+    let mut ways: Vec<(&[&str], &[&str])> =
+        vec![(&["--on", "ieee32,reference"], &["ieee32", "reference"])];
+    if Gpu::open(&AdapterChoice::Software).is_ok() {
+        ways.push((&["--adapter", "software"], &["gpu"]));
     }
-    assert_eq!(
-        json["infinite"]["operations"][0]["result"],
-        serde_json::json!(["-inf"])
-    );
-    let (_, text, _) = pullback(folder.path(), &arguments);
+    ways
+}
+
+/// log x is NaN left of 0, and infinite in the column of pixels at 0, on every machine.
+#[test]
+fn odd_pixels_are_found() {
+    for (way, names) in ways() {
+        let all = odd("y + log(x)", "65x48", way);
+        assert_eq!(all.len(), names.len());
+        for (found, name) in all.iter().zip(names) {
+            assert_eq!(found["name"], *name);
+            assert_eq!(found["nan"]["pixels"], 32 * 48);
+            assert_eq!(found["infinite"]["pixels"], 48);
+            assert_eq!(found["infinite"]["first"], serde_json::json!([32, 0]));
+            for kind in ["nan", "infinite"] {
+                let operation = &found[kind]["operations"][0];
+                assert_eq!(operation["operation"], "log(x)", "{kind}");
+                assert_eq!(operation["span"]["start"], 4);
+                assert_eq!(operation["pixels"], found[kind]["traced"]);
+            }
+            assert_eq!(
+                found["infinite"]["operations"][0]["result"],
+                serde_json::json!(["-inf"])
+            );
+        }
+        // what is not chosen is not to blame
+        for found in odd("(if x > 0 then log(x) else x) + √y", "64x48", way) {
+            assert_eq!(found["nan"]["pixels"], 64 * 24);
+            assert_eq!(found["nan"]["operations"].as_array().unwrap().len(), 1);
+            let culprit = found["nan"]["operations"][0]["operation"].as_str().unwrap();
+            assert!(culprit.ends_with("sqrt(y)"), "{culprit}");
+        }
+    }
+}
+
+/// What leaves the range of single precision is infinite there, and a number in double precision.
+#[test]
+fn each_arithmetic_has_odd_pixels_of_its_own() {
+    let all = odd("exp(9 x)", "64x8", &["--on", "ieee32,reference"]);
+    let infinite = |k: usize| all[k]["infinite"]["pixels"].as_u64().unwrap();
+    assert!(infinite(0) > 0, "{all:?}");
+    assert_eq!(infinite(1), 0, "{all:?}");
+}
+
+#[test]
+fn odd_pixels_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let tell = |formula: &str, on: &str| {
+        let arguments = ["probe", formula, "--nan", "--size", "9x9", "--on", on];
+        pullback(folder.path(), &arguments).1
+    };
+    let text = tell("y + log(x)", "reference");
     assert!(text.contains("`log(x)` in field_grad"), "{text}");
-    // what is not chosen is not to blame
-    let formula = "(if x > 0 then log(x) else x) + √y";
-    let arguments = [
-        "probe",
-        formula,
-        "--nan",
-        "--size",
-        "64x48",
-        "--adapter",
-        "software",
-    ];
-    let (_, json, _) = pullback(
-        folder.path(),
-        &[&arguments[..], &["--format", "json"]].concat(),
+    assert!(text.starts_with("NaN "), "{text}");
+    let both = tell("x + y", "ieee32,reference");
+    let calm = "NaN       0 of 9x9 pixels (0.0000 %)\ninfinite  0 of 9x9 pixels (0.0000 %)\n";
+    assert_eq!(
+        both,
+        format!("ieee32, accurate\n{calm}\nreference, double\n{calm}")
     );
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(json["nan"]["pixels"], 64 * 24);
-    assert_eq!(json["nan"]["operations"].as_array().unwrap().len(), 1);
-    assert_eq!(json["nan"]["operations"][0]["operation"], "sqrt(y)");
-    let (_, calm, _) = pullback(folder.path(), &["probe", "x + y", "--nan", "--size", "9x9"]);
-    assert!(calm.contains("NaN       0 of 9x9"), "{calm}");
 }
 
 #[test]

@@ -139,15 +139,47 @@ fn values_in_both_arithmetics() {
     );
 }
 
+/// The processor has all tiers, and `auto` tries them there as it does on an adapter.
 #[test]
-fn what_cannot_be_had_is_told() {
+fn the_cheapest_tier_is_chosen_in_exact_single_precision() {
     let folder = tempfile::tempdir().unwrap();
-    let (code, _, errors) = pullback(
-        folder.path(),
-        &["render", "x", "--adapter", "ieee32", "--precision", "auto"],
-        "",
-        false,
+    let draw = |formula: &str, more: &[&str]| {
+        let auto = [
+            "--adapter",
+            "ieee32",
+            "--precision",
+            "auto",
+            "-o",
+            "a.png",
+            "--size",
+            "24x18",
+        ];
+        let arguments = [&["render", formula], &auto[..], more].concat();
+        let (code, _, errors) = pullback(folder.path(), &arguments, "", true);
+        assert_eq!(code, 0, "{errors}");
+        errors
+    };
+    let plain = draw("x + y", &[]);
+    assert!(
+        plain.contains("auto: fast; fast: differs by at most"),
+        "{plain}"
     );
-    assert_eq!(code, 2, "{errors}");
-    assert!(errors.contains("--precision accurate"), "{errors}");
+    let deep = draw("sin(1e7 x) + y", &["--center", "1,0", "--height", "1e-6"]);
+    let wide = ["auto: extended; ", "auto: double; "];
+    assert!(wide.iter().any(|tier| deep.contains(tier)), "{deep}");
+}
+
+#[test]
+fn odd_pixels_are_found_without_an_adapter() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["probe", "√x + y", "--nan", "--size", "8x6"];
+    let (code, out, errors) = pullback(folder.path(), &arguments, "", true);
+    assert_eq!(code, 0, "{errors}");
+    assert!(errors.contains("only the processor computes"), "{errors}");
+    let count = out.matches("NaN       24 of 8x6").count();
+    assert_eq!(count, 2, "{out}");
+    assert!(
+        out.contains("ieee32, accurate\n") && out.contains("\nreference, double\n"),
+        "{out}"
+    );
 }

@@ -165,7 +165,7 @@ fn generated_arithmetic_is_native_arithmetic() {
         let options = Options {
             arithmetic: Arithmetic::Ieee32,
             format: Format::Single,
-            traced: false,
+            watched: Watched::Nothing,
         };
         for (k, tree) in trees.iter().enumerate() {
             let name = format!("test{k}");

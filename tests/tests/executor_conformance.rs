@@ -97,7 +97,7 @@ fn program(row: &Row, arithmetic: Arithmetic) -> Program {
     let options = Options {
         arithmetic,
         format: Format::Single,
-        traced: false,
+        watched: Watched::Nothing,
     };
     Program::new(&module, &info, Start::Function("test"), options)
         .unwrap_or_else(|e| panic!("{e}: {}", row.wgsl))

@@ -1,6 +1,9 @@
 //! The executor on what is large, endless or foreign: bounds with their messages, small stacks, refusals.
 
 use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{
@@ -12,17 +15,20 @@ use pullback_compiler::stable::Rewrites;
 use pullback_compiler::{EvalModule, What, compile};
 use pullback_runtime::evaluate::Surroundings;
 use pullback_runtime::executor::{
-    Arithmetic, Fault, Limits, MAX_STEPS, Machine, Options, Painter, Program, Rows, Start,
+    Arithmetic, Fault, Limits, MAX_FORMULA_TURNS, MAX_STEPS, MAX_TURNS, Machine, Options, Painter,
+    Program, Rows, Start, Watched,
 };
 use pullback_runtime::{Error, Frame, Pipeline, Size, View};
 
-// one loop of the language in every sample
-const _: () = assert!(MAX_STEPS > 100_000 * 16 * 16);
+// what the language allows: 100,000 steps of each of eight loops within one another
+const _: () = assert!(MAX_STEPS > 8 * 100_000);
+// the longest loops of the language, and of a scene's settings
+const _: () = assert!(MAX_FORMULA_TURNS > 100_000 && MAX_TURNS > 8192);
 
 const OPTIONS: Options = Options {
     arithmetic: Arithmetic::Reference,
     format: Format::Single,
-    traced: false,
+    watched: Watched::Nothing,
 };
 
 fn validated(module: Module) -> (Module, ModuleInfo) {
@@ -73,6 +79,7 @@ const COUNTING: &str = "fn test(n: u32) -> u32 {
 fn steps(steps: u64) -> Limits<'static> {
     Limits {
         steps,
+        turns: u64::MAX,
         ..Limits::default()
     }
 }
@@ -82,13 +89,123 @@ fn loops_end_at_the_bound_with_a_message() {
     let program = program(COUNTING).expect("it is translated");
     assert_eq!(run(&program, &[1000], steps(1000)), Ok(vec![1000]));
     let fault = run(&program, &[1001], steps(1000)).expect_err("one step too many");
-    assert_eq!(fault, Fault::Steps { limit: 1000 });
+    assert!(matches!(fault, Fault::Steps { limit: 1000, .. }));
     assert_eq!(
         fault.to_string(),
-        "the loops of one pixel take more than 1000 steps; give them a smaller bound"
+        "the loops of one sample take more than 1000 steps, most of them in `test`; give them a smaller bound"
     );
     let endless = run(&program, &[0, 5, u64::from(u32::MAX)], steps(100_000));
-    assert_eq!(endless, Err(Fault::Steps { limit: 100_000 }));
+    assert!(matches!(endless, Err(Fault::Steps { limit: 100_000, .. })));
+}
+
+/// A loop is told by its function and its place in the text.
+#[test]
+fn a_loop_ends_at_its_own_bound() {
+    let translated = program(COUNTING).expect("it is translated");
+    let limits = |turns| Limits {
+        turns,
+        ..Limits::default()
+    };
+    assert_eq!(
+        run(&translated, &[5, 1000], limits(1000)),
+        Ok(vec![5, 1000])
+    );
+    let fault = run(&translated, &[5, 1001], limits(1000)).expect_err("one step too many");
+    assert_eq!(
+        fault.to_string(),
+        "a loop takes more than 1000 steps at a time: in `test`"
+    );
+    let Fault::Turns {
+        place: Some(place), ..
+    } = fault
+    else {
+        panic!("{fault:?}")
+    };
+    let text = &COUNTING[place.span.clone().expect("a place")];
+    assert!(text.starts_with("loop {") && text.ends_with('}'), "{text}");
+    assert_eq!(place.in_formula(), None);
+    // entered again and again, it begins to count anew
+    let again = program(
+        "fn count(n: u32) -> u32 {
+            var k = 0u;
+            loop { if k == n { return k; } k += 1u; }
+            return 0u;
+        }
+        fn test(n: u32) -> u32 {
+            var sum = 0u;
+            for (var i = 0u; i < 10u; i++) { sum += count(n) + count(n / 2u); }
+            return sum;
+        }",
+    )
+    .expect("it is translated");
+    assert_eq!(run(&again, &[20, 4], limits(20)), Ok(vec![300, 60]));
+    assert!(run(&again, &[20, 4], limits(19)).is_err());
+}
+
+/// Processor time for which an endless loop may run in an unoptimised build.
+const SOON: Duration = Duration::from_secs(20);
+
+/// Loops without an end, alone and around loops with one.
+#[test]
+fn endless_loops_are_told_soon() {
+    let bodies = [
+        "loop { }",
+        "loop { x += 1.0; }",
+        "loop { if x < 0.0 { break; } x = sin(x) * sin(x) + cos(x * 2.0) + exp(-x * x) + 1.0; }",
+        "loop { for (var k = 0u; k < n / 16u; k++) { x += 1.0; } }",
+    ];
+    for body in bodies {
+        let text = format!("fn test(n: u32) -> u32 {{ var x = f32(n); {body} return u32(x); }}");
+        let program = program(&text).expect("it is translated");
+        let lanes: Vec<u64> = (0..64).collect();
+        let start = ThreadTime::now();
+        let failed = run(&program, &lanes, Limits::default());
+        let took = start.elapsed();
+        assert!(
+            matches!(failed, Err(Fault::Turns { .. })),
+            "{body}: {failed:?}"
+        );
+        println!("{body}: {took:?}");
+        assert!(took < SOON, "{body}: {took:?}");
+    }
+}
+
+/// Each sample counts by itself.
+#[test]
+fn samples_do_not_count_together() {
+    let program = program(
+        "fn work(n: u32) -> u32 { var k = 0u; loop { if k == n { return k; } k += 1u; } return 0u; }
+        fn pixel_mean(n: u32) -> u32 {
+            var sum = 0u;
+            for (var j = 0u; j < 4u; j++) { for (var i = 0u; i < 4u; i++) { sum += work(n); } }
+            return sum;
+        }
+        fn test(n: u32) -> u32 { return pixel_mean(n); }",
+    )
+    .expect("it is translated");
+    assert_eq!(run(&program, &[20], steps(22)), Ok(vec![320]));
+    let failed = run(&program, &[20], steps(19));
+    assert!(
+        matches!(failed, Err(Fault::Steps { limit: 19, .. })),
+        "{failed:?}"
+    );
+}
+
+/// The formula's loop is told by its place in the user's text.
+#[test]
+fn a_loop_of_the_formula_is_told_by_its_place() {
+    const TEXT: &str = "g(z) = z^2\nf(z) = 1 + iterate(900, w = 0, g(w) + z)";
+    let program = compile(TEXT).program.expect("a program");
+    let formula = &program.pictures()[0].formula;
+    let module = EvalModule::new(formula, What::Value, Precision::Double).expect("a module");
+    let mut rows = Rows::new(&module, Arithmetic::Reference).expect("it is translated");
+    rows.steps = 100;
+    let failed = rows.eval(Surroundings::default(), 1, &[0.0, 0.0], &mut Vec::new());
+    let Err(Error::Executor(fault)) = failed else {
+        panic!("{failed:?}")
+    };
+    let place = fault.in_formula().expect("a place");
+    assert_eq!(&TEXT[place], "iterate(900, w = 0, g(w) + z)");
 }
 
 /// Each lane's steps count, whatever its neighbours do: together these take more than any of them.
@@ -106,10 +223,8 @@ fn neighbours_do_not_count() {
     .expect("it is translated");
     let arguments: Vec<u64> = (0..10).collect();
     assert_eq!(run(&program, &arguments, steps(110)), Ok(vec![100; 10]));
-    assert_eq!(
-        run(&program, &arguments, steps(109)),
-        Err(Fault::Steps { limit: 109 })
-    );
+    let failed = run(&program, &arguments, steps(109));
+    assert!(matches!(failed, Err(Fault::Steps { limit: 109, .. })));
 }
 
 #[test]
@@ -161,7 +276,7 @@ fn pictures_end_at_the_bound_and_are_cancelled() {
     painter.steps = 20;
     let failed = painter.render(&frame(), settings, &flag, &mut Vec::new());
     assert!(
-        matches!(failed, Err(Error::Executor(Fault::Steps { limit: 20 }))),
+        matches!(failed, Err(Error::Executor(Fault::Steps { limit: 20, .. }))),
         "{failed:?}"
     );
     flag.store(true, std::sync::atomic::Ordering::Relaxed);

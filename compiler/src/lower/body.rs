@@ -104,6 +104,13 @@ impl Body {
         self.push(statement);
     }
 
+    /// Adds a statement that comes from a part of the user's text.
+    pub fn statement_of(&mut self, statement: Statement, span: pullback_grammar::Span) {
+        self.flush();
+        let span = Span::new(span.start, span.end);
+        self.function.body.push(statement, span);
+    }
+
     /// Calls a function and gives its result.
     pub fn call(
         &mut self,

@@ -62,11 +62,14 @@ impl Lowering<'_, '_, '_> {
         let next = self.binary(BinaryOperator::Add, now, one);
         self.body.store(done, next);
         let continuing = self.body.close();
-        self.body.statement(Statement::Loop {
+        let of_text = plan.results.first().map(|&result| self.graph.span(result));
+        let repeated = Statement::Loop {
             body,
             continuing,
             break_if: None,
-        });
+        };
+        self.body
+            .statement_of(repeated, of_text.unwrap_or_default());
         self.forget(plan);
         self.results(plan, &variables);
         Ok(())

@@ -169,27 +169,34 @@ fn gamma_positive(x: f64) -> f64 {
     if x > 171.7 {
         return f64::INFINITY;
     }
-    let mut product = 1.0;
-    let mut top = x;
-    if x <= 24.0 && x == x.round() {
-        while top > 1.5 {
-            top -= 1.0;
-            product *= top;
-        }
-        return product;
+    if x < FAR || x <= 24.0 && x == x.round() {
+        return gamma_near(x);
     }
-    while top < FAR {
-        product *= top;
-        top += 1.0;
-    }
+    let top = x;
     // √τ top^(top - 1/2) e^-top e^series
     let w = 1.0 / (top * top);
     let series = horner(&LOG_GAMMA_SERIES, w) / top;
     let half_power = top.powf(0.5 * top - 0.25);
     let root_tau = 2.506_628_274_631_000_5;
     let stirling = half_power * (-top).exp() * root_tau;
-    let stirling = (stirling + stirling * series.exp_m1()) * half_power;
-    stirling / product
+    (stirling + stirling * series.exp_m1()) * half_power
+}
+
+/// Γ(x) for positive x that are not large, by the recurrence from beside 2 (DLMF 5.5.1), where log Γ is small. Each step down
+/// is exact, so that only the products round.
+fn gamma_near(x: f64) -> f64 {
+    if x < 0.5 {
+        return log_gamma_near_2(x).exp() / (x * (1.0 + x));
+    }
+    if x < 1.5 {
+        return log_gamma_near_2(x - 1.0).exp() / x;
+    }
+    let (mut product, mut top) = (1.0, x);
+    while top >= 2.5 {
+        top -= 1.0;
+        product *= top;
+    }
+    product * log_gamma_near_2(top - 2.0).exp()
 }
 
 /// log |Γ(x)|: +∞ at the poles. Relative accuracy near its zeros at 1 and 2; absolute at those left of 0.

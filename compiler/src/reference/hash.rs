@@ -16,10 +16,12 @@ fn word(v: u32) -> u32 {
     reason = "the two's complement is meant, and the nearest float32"
 )]
 fn coordinate(x: f64) -> Option<u32> {
-    let (whole, narrow) = (x.floor(), x as f32);
-    if whole.abs() < 2_147_483_648.0 {
-        return Some(whole as i32 as u32);
+    // ⌊x⌋ by conversions, which are faster than `floor` where that is no instruction
+    if (-2_147_483_647.0..2_147_483_648.0).contains(&x) {
+        let cut = x as i32;
+        return Some((cut - i32::from(f64::from(cut) > x)) as u32);
     }
+    let narrow = x as f32;
     narrow.is_finite().then_some(narrow.to_bits())
 }
 

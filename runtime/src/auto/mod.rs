@@ -1,6 +1,6 @@
 //! The tier `auto`: the cheapest one whose error cannot be seen in a view.
 //!
-//! At sample pixels the formula is evaluated on the adapter, in each tier, and in f64 on the processor. A tier is chosen
+//! At sample pixels the formula is evaluated on what draws, in each tier, and in f64 on the processor. A tier is chosen
 //! where at every sample the colour differs by less than [`COLOUR`] and no line that passes near is displaced by more
 //! than [`DISPLACEMENT`]. Where two wide tiers do, the one that is faster on this adapter is taken.
 
@@ -8,6 +8,7 @@ mod matter;
 mod points;
 mod sight;
 mod space;
+mod trier;
 
 use std::fmt;
 use std::time::{Duration, Instant};
@@ -18,10 +19,11 @@ use pullback_compiler::{EvalModule, Evaluator, Program, SettingValue, What};
 use pullback_grammar::Diagnostic;
 
 use crate::evaluate::Surroundings;
-use crate::{Capabilities, Error, Frame, Gpu, GpuEvaluator};
+use crate::{Error, Frame};
 
 pub use points::{Sample, Subject};
 pub use sight::{COLOUR, DISPLACEMENT, Sight};
+pub use trier::Trier;
 
 /// Rows in the batch whose time decides between tiers that are both good.
 const TIMED: usize = 1 << 14;
@@ -143,11 +145,12 @@ impl From<Vec<Diagnostic>> for Failure {
     }
 }
 
-/// Chooses the tier for a picture on a device.
+/// Chooses the tier for a picture on a device, or on the processor.
 ///
 /// # Errors
 /// The formula has no derivative that its scene asks for, or the device fails.
-pub fn choose(gpu: &Gpu, scenery: &Scenery) -> Result<Verdict, Failure> {
+pub fn choose<'t>(on: impl Into<Trier<'t>>, scenery: &Scenery) -> Result<Verdict, Failure> {
+    let on = on.into();
     let what = what(scenery);
     let mut truth = scenery.program.evaluator(scenery.picture, what)?;
     let samples = points::samples(scenery, &mut truth);
@@ -163,14 +166,14 @@ pub fn choose(gpu: &Gpu, scenery: &Scenery) -> Result<Verdict, Failure> {
         if known.is_some_and(|good| !good.precision.format().is_wide()) {
             break;
         }
-        let outcome = compare(gpu, scenery, precision, &samples, &true_values)?;
+        let outcome = compare(on, scenery, precision, &samples, &true_values)?;
         verdict.trials.push(Trial {
             precision,
             outcome,
             time: None,
         });
     }
-    time_good_ones(gpu, scenery, what, &samples, &mut verdict.trials)?;
+    time_good_ones(on, scenery, what, &samples, &mut verdict.trials)?;
     verdict.precision = best(&verdict.trials);
     Ok(verdict)
 }
@@ -229,26 +232,26 @@ fn evaluate_truth(scenery: &Scenery, truth: &mut Evaluator, samples: &[Sample]) 
 ///
 /// # Errors
 /// The formula has no derivative that its scene asks for, or the device fails.
-pub fn compare(
-    gpu: &Gpu,
+pub fn compare<'t>(
+    on: impl Into<Trier<'t>>,
     scenery: &Scenery,
     precision: Precision,
     samples: &[Sample],
     true_values: &[f64],
 ) -> Result<Outcome, Failure> {
+    let on = on.into();
     let space = scenery.program.pictures()[scenery.picture].scene.space;
-    if !gpu.has(precision) {
+    if !on.has(precision) {
         return Ok(Outcome::NotOffered);
     }
     if space != Space::Space && !scenery.frame.is_resolved(precision.format()) {
         return Ok(Outcome::Unresolved);
     }
     let what = what(scenery);
-    let module =
-        scenery
-            .program
-            .eval_module(scenery.picture, what, Capabilities::tier(gpu, precision)?)?;
-    let values = evaluate(gpu, scenery, &module, samples)?;
+    let module = scenery
+        .program
+        .eval_module(scenery.picture, what, on.tier(precision)?)?;
+    let values = evaluate(on, scenery, &module, samples)?;
     let columns = module.outputs.len().max(1);
     let eye = sight::Eye::new(scenery);
     let mut worst = (Sight::default(), [0.0; 3]);
@@ -275,19 +278,19 @@ pub fn compare(
 }
 
 fn evaluate(
-    gpu: &Gpu,
+    on: Trier,
     scenery: &Scenery,
     module: &EvalModule,
     samples: &[Sample],
 ) -> Result<Vec<f64>, Error> {
-    let mut evaluator = GpuEvaluator::new(gpu, module)?;
+    let mut evaluator = on.evaluator(module)?;
     let inputs = module.inputs.len();
     let rows: Vec<f64> = samples
         .iter()
         .flat_map(|s| s.point[..inputs].iter().copied())
         .collect();
     let mut values = Vec::new();
-    evaluator.eval_exactly(surroundings(scenery), samples.len(), &rows, &mut values)?;
+    evaluator.eval(surroundings(scenery), samples.len(), &rows, &mut values)?;
     Ok(values)
 }
 
@@ -301,7 +304,7 @@ fn surroundings<'a>(scenery: &Scenery<'a>) -> Surroundings<'a> {
 
 /// Times the good tiers against each other, where there are several.
 fn time_good_ones(
-    gpu: &Gpu,
+    on: Trier,
     scenery: &Scenery,
     what: What,
     samples: &[Sample],
@@ -311,12 +314,11 @@ fn time_good_ones(
         return Ok(());
     }
     for trial in trials.iter_mut().filter(|t| t.is_good()) {
-        let module = scenery.program.eval_module(
-            scenery.picture,
-            what,
-            Capabilities::tier(gpu, trial.precision)?,
-        )?;
-        let mut evaluator = GpuEvaluator::new(gpu, &module)?;
+        let module =
+            scenery
+                .program
+                .eval_module(scenery.picture, what, on.tier(trial.precision)?)?;
+        let mut evaluator = on.evaluator(&module)?;
         let inputs = module.inputs.len();
         let many = samples.iter().cycle().take(TIMED);
         let rows: Vec<f64> = many
@@ -326,7 +328,7 @@ fn time_good_ones(
         let mut best = Duration::MAX;
         for _ in 0..4 {
             let start = Instant::now();
-            evaluator.eval_exactly(surroundings(scenery), TIMED, &rows, &mut Vec::new())?;
+            evaluator.eval(surroundings(scenery), TIMED, &rows, &mut Vec::new())?;
             best = best.min(start.elapsed());
         }
         trial.time = Some(best);

@@ -16,7 +16,7 @@ use super::failure::Failure;
 use super::progress::Progress;
 use super::render::{name, point, positive, size};
 use super::{Console, Rules, Settings, Which};
-use drawing::Side;
+pub(super) use drawing::Side;
 use report::Report;
 use threshold::Threshold;
 

@@ -121,10 +121,12 @@ pub(super) fn run(arguments: &EvalArguments, console: &Console) -> Result<(), Fa
                         surroundings,
                     };
                     let narrow = !module.tier.precision.format().is_wide();
-                    if narrow && *arithmetic == Arithmetic::Ieee32 {
-                        return table.run(&mut Narrow(machine), console);
-                    }
-                    return table.run(&mut machine, console);
+                    let done = if narrow && *arithmetic == Arithmetic::Ieee32 {
+                        table.run(&mut Narrow(machine), console)
+                    } else {
+                        table.run(&mut machine, console)
+                    };
+                    return done.map_err(|failure| source.blamed(failure, console));
                 }
             };
             let evaluator = GpuEvaluator::new(gpu, &module)?;

@@ -1,10 +1,13 @@
 //! `pullback gallery`: many programs on one sheet.
 
+mod compare;
+
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use pullback_runtime::{Metadata, Size, image_file};
 
+use super::diff::Side;
 use super::failure::Failure;
 use super::place::Computer;
 use super::progress::Progress;
@@ -39,11 +42,23 @@ pub(super) struct GalleryArguments {
     device: Device,
     #[command(flatten)]
     numbers: Numbers,
+    /// Draw each picture on this, too, and write a table of how they differ instead of a sheet
+    #[arg(long, value_name = "ADAPTER[:PRECISION]", conflicts_with_all = ["output", "columns"])]
+    compare: Option<Side>,
+    /// The file for the table in Markdown [default: the standard output]
+    #[arg(long, value_name = "FILE", requires = "compare")]
+    markdown: Option<PathBuf>,
+    /// The file for the table in JSON
+    #[arg(long, value_name = "FILE", requires = "compare")]
+    json: Option<PathBuf>,
 }
 
 /// Draws all pictures of all programs, and writes the sheet. Those that cannot be drawn are told, and stay empty.
 pub(super) fn run(arguments: &GalleryArguments, console: &Console) -> Result<(), Failure> {
     let subjects = subjects(arguments, console)?;
+    if let Some(other) = &arguments.compare {
+        return compare::run(arguments, other, &subjects, console);
+    }
     let computer = Computer::open(&arguments.device.adapter, console)?;
     let mut sheet = Sheet::new(arguments, subjects.pictures.len() as u32)?;
     let mut progress = Progress::new(console);
@@ -155,11 +170,9 @@ fn draw(
     let bytes = scene.pack_settings(&subject.settings);
     let frame = subject.frame(&bytes);
     let mut pixels = Vec::new();
-    Artist::new(computer, &scene, frame.pipeline)?.render(
-        &frame,
-        &subject.settings,
-        &mut pixels,
-    )?;
+    Artist::new(computer, &scene, frame.pipeline)?
+        .render(&frame, &subject.settings, &mut pixels)
+        .map_err(|error| subject.source.blamed(error.into(), console))?;
     Ok(pixels)
 }
 

@@ -5,6 +5,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use pullback_compiler::lower::{Precision, Tier};
+use pullback_runtime::auto::Trier;
 use pullback_runtime::executor::Arithmetic;
 use pullback_runtime::{AdapterChoice, Error, Gpu};
 
@@ -54,6 +55,15 @@ impl Computer {
         }
     }
 
+    /// What tries the tiers for `auto`; nothing in `f64`, where there is nothing to choose.
+    pub(super) fn trier(&self) -> Option<Trier<'_>> {
+        match self {
+            Self::Adapter(gpu) => Some(Trier::Device(gpu)),
+            Self::Processor(Arithmetic::Ieee32) => Some(Trier::Exact),
+            Self::Processor(Arithmetic::Reference) => None,
+        }
+    }
+
     /// The tier of the module: of two that could be, in `f64` the one that holds all digits of constants, too.
     pub(super) fn tier(
         &self,
@@ -81,7 +91,7 @@ fn is_absence(error: &Error) -> bool {
 
 fn no_choice() -> Failure {
     Failure::usage_hint(
-        "`auto` chooses the precision by trying them on a graphics adapter",
+        "`auto` chooses the precision for a picture, and there is none here",
         "give --precision accurate, or another",
     )
 }

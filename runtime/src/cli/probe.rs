@@ -8,6 +8,7 @@ mod place;
 mod table;
 
 use clap::{ArgGroup, Args, ValueEnum};
+use pullback_runtime::auto::Trier;
 use pullback_runtime::executor::Arithmetic;
 use pullback_runtime::trace::Trace;
 use pullback_runtime::{AdapterChoice, Error, Gpu, Size};
@@ -48,9 +49,9 @@ pub(super) struct ProbeArguments {
     settings: Settings,
     #[command(flatten)]
     which: Which,
-    /// Which machines compute: the graphics adapter, the processor in exact binary32, and in f64
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "NAME,…",
-          default_values_t = [Machine::Gpu, Machine::Ieee32, Machine::Reference])]
+    /// Which machines compute: the graphics adapter, the processor in exact binary32, and in f64 [default: all; for --nan
+    /// the adapter, or the processor where there is none]
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "NAME,…")]
     on: Vec<Machine>,
     #[command(flatten)]
     device: Adapter,
@@ -104,6 +105,13 @@ impl Machine {
     }
 }
 
+impl ProbeArguments {
+    /// Whether a machine is asked for.
+    fn computes(&self, machine: Machine) -> bool {
+        self.on.is_empty() || self.on.contains(&machine)
+    }
+}
+
 /// What one machine computed.
 struct Column {
     name: &'static str,
@@ -123,26 +131,23 @@ pub(super) fn run(arguments: &ProbeArguments, console: &Console) -> Result<(), F
         samples: 1,
     };
     let subject = Subject::open(&wanted, console)?;
-    if arguments.nan {
-        let gpu = super::open(&arguments.device.adapter, console)?;
-        return nan::run(arguments, &subject, &gpu, console);
-    }
     let gpu = adapter(arguments, console)?;
-    let (precision, tier) = match &gpu {
-        Some(gpu) => {
-            let precision = subject.precision(arguments.numbers, gpu, console)?;
-            (precision, super::tier(gpu, precision)?)
-        }
-        None => {
-            let precision = arguments.numbers.without_view(&subject.settings)?;
-            (precision, precision.into())
-        }
+    if arguments.nan {
+        return nan::run(arguments, &subject, gpu.as_ref(), console);
+    }
+    let on = gpu.as_ref().map_or(Trier::Exact, Trier::Device);
+    let precision = subject.precision(arguments.numbers, on, console)?;
+    let tier = match &gpu {
+        Some(gpu) => super::tier(gpu, precision)?,
+        None => precision.into(),
     };
     let place = match &arguments.at {
         Some(at) => Place::Point(&at.0),
         None => Place::Pixel(arguments.pixel.unwrap_or_default()),
     };
-    let (sites, columns) = place.columns(arguments, &subject, gpu.as_ref(), tier, console)?;
+    let (sites, columns) = place
+        .columns(arguments, &subject, gpu.as_ref(), tier, console)
+        .map_err(|failure| subject.source.blamed(failure, console))?;
     let findings = Findings {
         subject: &subject,
         sites: &sites,
@@ -161,13 +166,13 @@ pub(super) fn run(arguments: &ProbeArguments, console: &Console) -> Result<(), F
 
 /// The graphics adapter, if one is asked for and there is one; it is no mistake to have none.
 fn adapter(arguments: &ProbeArguments, console: &Console) -> Result<Option<Gpu>, Failure> {
-    if !arguments.on.contains(&Machine::Gpu) {
+    if !arguments.computes(Machine::Gpu) {
         return Ok(None);
     }
     match Gpu::open(&arguments.device.adapter) {
         Ok(gpu) => Ok(Some(gpu)),
         Err(error @ Error::NoAdapter { .. })
-            if arguments.device.adapter == AdapterChoice::Auto && arguments.on.len() > 1 =>
+            if arguments.device.adapter == AdapterChoice::Auto && arguments.on.len() != 1 =>
         {
             console.warning(&format!("{error}; only the processor computes"));
             Ok(None)

@@ -8,13 +8,13 @@ use pullback_compiler::lower::Precision;
 use pullback_compiler::scene::{SettingKind, Space};
 use pullback_compiler::{Picture, SceneModule, SettingValue};
 use pullback_runtime::animation::Container;
-use pullback_runtime::auto::{self, Scenery};
+use pullback_runtime::auto::{self, Scenery, Trier};
 use pullback_runtime::executor::Painter;
 use pullback_runtime::image_file::{Alpha, Format};
 use pullback_runtime::render::MAX_SAMPLES;
 pub(super) use pullback_runtime::render::MAX_SIDE;
 use pullback_runtime::{
-    Error, Frame, Gpu, Metadata, Pipeline, Renderer, RowSink, Size, View, fill_in_scale, image_file,
+    Error, Frame, Metadata, Pipeline, Renderer, RowSink, Size, View, fill_in_scale, image_file,
 };
 
 use super::animate::{Animation, Reel};
@@ -113,15 +113,15 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         },
     };
     let computer = Computer::open(&arguments.device.adapter, console)?;
-    let wanted = match (&computer, arguments.numbers.wanted(&settings)) {
-        (Computer::Adapter(gpu), None) => {
+    let wanted = match (computer.trier(), arguments.numbers.wanted(&settings)) {
+        (Some(on), None) => {
             let scenery = Scenery {
                 program: &source.program,
                 picture: index,
                 settings: &settings,
                 frame: &frame,
             };
-            Some(chosen(gpu, &scenery, &source, console)?)
+            Some(chosen(on, &scenery, &source, console)?)
         }
         (_, wanted) => wanted,
     };
@@ -153,7 +153,8 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         let output = (path.as_path(), (format, alpha), &metadata);
         arguments
             .animation
-            .write(&reel, frames, &mut artist, output, &mut progress)?;
+            .write(&reel, frames, &mut artist, output, &mut progress)
+            .map_err(|failure| source.blamed(failure, console))?;
         progress.finish();
         console.note(&drawn(&shown, arguments.size, Some(frames), &progress));
         return Ok(());
@@ -165,7 +166,8 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         };
         artist.render(&frame, &settings, &mut sink)
     })
-    .map_err(Failure::writing(&shown))?;
+    .map_err(Failure::writing(&shown))
+    .map_err(|failure| source.blamed(failure, console))?;
     progress.finish();
     console.note(&drawn(&shown, frame.size, None, &progress));
     Ok(())
@@ -309,12 +311,12 @@ pub(super) fn view(
 
 /// The tier that `auto` takes; says which and why.
 pub(super) fn chosen(
-    gpu: &Gpu,
+    on: Trier,
     scenery: &Scenery,
     source: &Source,
     console: &Console,
 ) -> Result<Precision, Failure> {
-    let verdict = match auto::choose(gpu, scenery) {
+    let verdict = match auto::choose(on, scenery) {
         Ok(verdict) => verdict,
         Err(auto::Failure::Device(error)) => return Err(error.into()),
         Err(auto::Failure::Program(problems)) => return source.expect(Err(problems), console),

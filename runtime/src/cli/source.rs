@@ -6,8 +6,9 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use pullback_compiler::Program;
-use pullback_grammar::Diagnostic;
 use pullback_grammar::ast::MAX_SOURCE_BYTES;
+use pullback_grammar::{Diagnostic, Span};
+use pullback_runtime::Error;
 
 use super::failure::Failure;
 use super::{Console, Input, Rules, Which};
@@ -88,6 +89,21 @@ impl Source {
             console.diagnostics(&diagnostics, &self.name, &self.text);
             Failure::Program
         })
+    }
+
+    /// A failure while the program ran; one that a loop of the text is to blame for is told at its place.
+    pub(super) fn blamed(&self, failure: Failure, console: &Console) -> Failure {
+        let Failure::Device(Error::Executor(fault)) = &failure else {
+            return failure;
+        };
+        let Some(place) = fault.in_formula() else {
+            return failure;
+        };
+        let span = Span::new(place.start as u32, place.end as u32);
+        let told = Diagnostic::error("too-many-steps", span, fault.to_string())
+            .with_label("this loop takes most of them");
+        console.diagnostics(&[told], &self.name, &self.text);
+        Failure::Program
     }
 }
 

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use pullback_compiler::lower::{self, Precision};
 use pullback_compiler::{Picture, SceneModule, SettingValue};
-use pullback_runtime::auto::Scenery;
-use pullback_runtime::{Frame, Gpu, Pipeline, Size, View, fill_in_scale};
+use pullback_runtime::auto::{Scenery, Trier};
+use pullback_runtime::{Frame, Pipeline, Size, View, fill_in_scale};
 
 use super::failure::Failure;
 use super::mesh;
@@ -98,11 +98,11 @@ impl Subject {
         }
     }
 
-    /// The tier to draw with on a device.
+    /// The tier to draw with on what the tiers can be tried on.
     pub(super) fn precision(
         &self,
         numbers: Numbers,
-        gpu: &Gpu,
+        on: Trier,
         console: &Console,
     ) -> Result<Precision, Failure> {
         if let Some(precision) = numbers.wanted(&self.settings) {
@@ -114,7 +114,7 @@ impl Subject {
             settings: &self.settings,
             frame: &self.frame(&[]),
         };
-        render::chosen(gpu, &scenery, &self.source, console)
+        render::chosen(on, &scenery, &self.source, console)
     }
 
     /// The tier to draw with on whatever computes.
@@ -124,9 +124,9 @@ impl Subject {
         computer: &Computer,
         console: &Console,
     ) -> Result<lower::Tier, Failure> {
-        let wanted = match computer {
-            Computer::Adapter(gpu) => Some(self.precision(numbers, gpu, console)?),
-            Computer::Processor(_) => numbers.wanted(&self.settings),
+        let wanted = match computer.trier() {
+            Some(on) => Some(self.precision(numbers, on, console)?),
+            None => numbers.wanted(&self.settings),
         };
         computer.tier(numbers.precision, wanted)
     }

@@ -167,6 +167,8 @@ pub(super) enum Op {
     EndIf,
     /// No lane waits in d nor in a.
     Clear,
+    /// Loop x begins: no lane waits in d nor in a. What it repeats follows.
+    Enter,
     /// All lanes wait in d, and x is next.
     Leave,
     /// Lanes with a wait in d; if no other is left, x is next.

@@ -31,7 +31,7 @@ pub(super) trait Float:
 }
 
 macro_rules! format {
-    ($format:ident, $from:expr, $word:expr) => {
+    ($format:ident, $from:expr, $word:expr, $whole:expr) => {
         impl Float for $format {
             #[inline(always)]
             fn from_word(word: u64) -> Self {
@@ -56,19 +56,29 @@ macro_rules! format {
             }
             #[inline(always)]
             fn floor(self) -> Self {
-                $format::floor(self)
+                // without instructions that only newer processors have
+                let nearest = self.round_ties_even();
+                nearest - if nearest > self { 1.0 } else { 0.0 }
             }
             #[inline(always)]
             fn ceil(self) -> Self {
-                $format::ceil(self)
+                -Float::floor(-self)
             }
             #[inline(always)]
             fn trunc(self) -> Self {
-                $format::trunc(self)
+                Float::floor($format::abs(self)).copysign(self)
             }
             #[inline(always)]
             fn round_ties_even(self) -> Self {
-                $format::round_ties_even(self)
+                // from here on every number is whole
+                const WHOLE: $format = $whole;
+                let size = $format::abs(self);
+                let nearest = (size + WHOLE) - WHOLE;
+                if size < WHOLE {
+                    nearest.copysign(self)
+                } else {
+                    self
+                }
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
@@ -82,10 +92,13 @@ macro_rules! format {
     };
 }
 
-format!(f64, f64::from_bits, f64::to_bits);
-format!(f32, |word: u64| f32::from_bits(word as u32), |x: f32| {
-    u64::from(x.to_bits())
-});
+format!(f64, f64::from_bits, f64::to_bits, 4_503_599_627_370_496.0);
+format!(
+    f32,
+    |word: u64| f32::from_bits(word as u32),
+    |x: f32| u64::from(x.to_bits()),
+    8_388_608.0
+);
 
 /// Whether a function costs so much that lanes which do not run are worth skipping.
 pub(super) fn is_costly(fun: Float1) -> bool {
@@ -263,5 +276,52 @@ mod tests {
         assert_eq!(smooth_step(0.0, 2.0, 1.0), 0.5);
         assert_eq!(smooth_step(0.0f32, 2.0, 5.0), 1.0);
         assert_eq!(clamp(5.0, 0.0, 1.0), 1.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The bits of what the standard library gives, of zeros too.
+    #[test]
+    fn whole_numbers() {
+        let near = |x: f64| [x, x.next_up(), x.next_down(), x + 0.5, x - 0.5];
+        let mut all = vec![
+            f64::INFINITY,
+            f64::MAX,
+            f64::MIN_POSITIVE,
+            1e-310,
+            0.49999999999999994,
+        ];
+        for k in [
+            0.0,
+            1.0,
+            2.0,
+            3.0,
+            8_388_607.0,
+            8_388_608.0,
+            16_777_216.0,
+            2f64.powi(51),
+            2f64.powi(52),
+            2f64.powi(53),
+        ] {
+            all.extend(near(k));
+        }
+        for x in all.iter().flat_map(|&x| [x, -x]) {
+            let same = |a: f64, b: f64| assert_eq!(a.to_bits(), b.to_bits(), "{x:e}: {a}, not {b}");
+            same(Float::floor(x), x.floor());
+            same(Float::ceil(x), x.ceil());
+            same(Float::trunc(x), x.trunc());
+            same(Float::round_ties_even(x), x.round_ties_even());
+            let narrow = x as f32;
+            let same =
+                |a: f32, b: f32| assert_eq!(a.to_bits(), b.to_bits(), "{narrow:e}: {a}, not {b}");
+            same(Float::floor(narrow), narrow.floor());
+            same(Float::ceil(narrow), narrow.ceil());
+            same(Float::trunc(narrow), narrow.trunc());
+            same(Float::round_ties_even(narrow), narrow.round_ties_even());
+        }
+        assert!(Float::floor(f64::NAN).is_nan() && Float::trunc(f32::NAN).is_nan());
     }
 }

@@ -17,11 +17,13 @@ const SINGLE: &[u32] = &[0];
 /// The chunks that an instruction writes.
 #[inline(always)]
 fn chunks(mask: &Mask, d: Slot) -> &[u32] {
-    if d.is_uniform() {
-        SINGLE
-    } else {
-        mask.chunks()
-    }
+    chunks_of(mask, d.is_uniform())
+}
+
+/// The chunks of what is the same for all lanes, or of the lanes that run.
+#[inline(always)]
+pub(super) fn chunks_of(mask: &Mask, uniform: bool) -> &[u32] {
+    if uniform { SINGLE } else { mask.chunks() }
 }
 
 #[inline(always)]

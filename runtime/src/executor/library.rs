@@ -5,8 +5,8 @@ use pullback_compiler::lower::Format;
 use pullback_compiler::reference::complex::{Complex, complex};
 use pullback_compiler::table::{Direct, Meaning, Number, meaning};
 
-use super::kernels::{Lanes, each_lane, write};
-use super::lanes::{Chunk, Slot, TRUE};
+use super::kernels::{self, Lanes, each_lane, write};
+use super::lanes::{Chunk, Slot, TRUE, WIDTH};
 
 /// What stands in for a function of the shader library.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,6 +77,8 @@ pub(super) struct LibraryCall {
     results: Vec<Slot>,
     /// How the module holds a number.
     format: Format,
+    /// The operands, where each is a real of one word, and each result, too.
+    flat: Vec<Slot>,
 }
 
 /// Most operands of a library function.
@@ -132,10 +134,28 @@ fn way(stand: Stand, operands: &[Operand]) -> Way {
     }
 }
 
+/// The operands, if each is a real of one word.
+fn flat(operands: &[Operand]) -> Option<Vec<Slot>> {
+    let one = |operand: &Operand| match operand {
+        Operand::Real(parts) => <[Slot; 1]>::try_from(parts.as_slice()).ok(),
+        _ => None,
+    };
+    let all: Option<Vec<[Slot; 1]>> = operands.iter().map(one).collect();
+    all.map(|all| all.concat())
+}
+
 impl LibraryCall {
     pub fn new(stand: Stand, operands: Vec<Operand>, results: Vec<Slot>, format: Format) -> Self {
+        let way = way(stand, &operands);
+        let functions = match &way {
+            Way::Reals(functions) => functions.len(),
+            _ => 0,
+        };
         Self {
-            way: way(stand, &operands),
+            flat: flat(&operands)
+                .filter(|_| results.len() == functions)
+                .unwrap_or_default(),
+            way,
             operands,
             results,
             format,
@@ -160,6 +180,7 @@ impl LibraryCall {
             }
         }
         place(&mut self.results);
+        place(&mut self.flat);
         self
     }
 
@@ -167,6 +188,9 @@ impl LibraryCall {
         let uniform = self.results.iter().all(|slot| slot.is_uniform());
         let count = self.operands.len();
         match &self.way {
+            Way::Reals(functions) if !self.flat.is_empty() => {
+                self.flat_reals(functions, lanes, uniform);
+            }
             Way::Reals(functions) => {
                 each_lane(lanes.memory, lanes.mask, uniform, |memory, c, i| {
                     let mut x = [0.0; MOST];
@@ -219,6 +243,31 @@ impl LibraryCall {
                     write(memory, slot, c, i, word.into());
                 }
             }),
+        }
+    }
+
+    /// Functions of reals of one word each, chunk by chunk.
+    fn flat_reals(&self, functions: &[fn(&[f64]) -> f64], lanes: &mut Lanes, uniform: bool) {
+        let count = self.flat.len();
+        for &c in kernels::chunks_of(lanes.mask, uniform) {
+            let mut columns = [Chunk::ZERO; MOST];
+            for (column, slot) in columns.iter_mut().zip(&self.flat) {
+                *column = lanes.memory[slot.chunk(c)];
+            }
+            let row = |i: usize| columns.each_ref().map(|column| f64::from_bits(column.0[i]));
+            let runs = lanes.mask.lanes[c as usize].0;
+            for (f, d) in functions.iter().zip(&self.results) {
+                let out = &mut lanes.memory[d.chunk(c)];
+                if uniform {
+                    *out = Chunk::splat(f(&row(0)[..count]).to_bits());
+                    continue;
+                }
+                for i in 0..WIDTH {
+                    if runs[i] != 0 {
+                        out.0[i] = f(&row(i)[..count]).to_bits();
+                    }
+                }
+            }
         }
     }
 

@@ -12,14 +12,25 @@ use super::lanes::{CHUNKS, Chunk, LANES, Mask, Slot, TRUE, WIDTH};
 use super::program::Program;
 use super::trace::{Event, Observer};
 
-/// Steps of all loops together that an invocation may take, unless told otherwise.
-pub const MAX_STEPS: u64 = 1 << 28;
+/// Steps of all loops together that a sample of a pixel, or a row, may take, unless told otherwise.
+pub const MAX_STEPS: u64 = 1 << 22;
+
+/// Steps that one loop of a scene may take from when it is entered until it is left, unless told otherwise: twice as many as
+/// any setting asks for.
+pub const MAX_TURNS: u64 = 1 << 14;
+
+/// Steps that one loop of a formula may take so, unless told otherwise; the language allows 100,000.
+pub const MAX_FORMULA_TURNS: u64 = 1 << 17;
 
 /// Bounds of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits<'a> {
-    /// Steps that the loops of one invocation may take in all.
+    /// Steps that the loops of one invocation may take in all; of a pixel, for each of its samples.
     pub steps: u64,
+    /// Steps that one loop of a scene may take from when it is entered until it is left.
+    pub turns: u64,
+    /// Steps that one loop of a formula may take so.
+    pub formula_turns: u64,
     /// Ends the run when it is set.
     pub cancel: Option<&'a AtomicBool>,
 }
@@ -28,6 +39,8 @@ impl Default for Limits<'_> {
     fn default() -> Self {
         Self {
             steps: MAX_STEPS,
+            turns: MAX_TURNS,
+            formula_turns: MAX_FORMULA_TURNS,
             cancel: None,
         }
     }
@@ -41,10 +54,20 @@ pub struct Machine<'p> {
     mask: Mask,
     returns: Vec<(usize, Slot)>,
     buffers: Vec<Vec<u64>>,
-    /// Steps of each lane's loops.
+    /// Steps of each lane's loops, in the sample at hand.
     steps: Vec<Chunk>,
     /// Steps of the group's loops, at least as many as any lane's.
     group_steps: u64,
+    /// Of each loop, the group's steps since it was entered, and all of them.
+    turns: Vec<Turns>,
+}
+
+/// How often a group has gone through a loop. No lane joins a loop that runs, so that those in it have all made every step
+/// since it was entered.
+#[derive(Clone, Copy, Debug, Default)]
+struct Turns {
+    since_entered: u64,
+    in_all: u64,
 }
 
 impl<'p> Machine<'p> {
@@ -66,6 +89,7 @@ impl<'p> Machine<'p> {
             buffers: vec![Vec::new(); program.buffers.len()],
             steps: vec![Chunk::ZERO; CHUNKS],
             group_steps: 0,
+            turns: vec![Turns::default(); program.loops.len()],
         }
     }
 
@@ -126,9 +150,17 @@ impl<'p> Machine<'p> {
     ) -> Result<(), Fault> {
         self.mask = Mask::first(count.min(LANES));
         self.returns.clear();
+        self.begin_sample();
+        self.execute(limits, observer)
+    }
+
+    /// Counts steps in all from here on.
+    fn begin_sample(&mut self) {
         self.steps.fill(Chunk::ZERO);
         self.group_steps = 0;
-        self.execute(limits, observer)
+        for turns in &mut self.turns {
+            turns.in_all = 0;
+        }
     }
 
     fn execute(&mut self, limits: Limits, observer: &mut dyn Observer) -> Result<(), Fault> {
@@ -141,6 +173,7 @@ impl<'p> Machine<'p> {
                 | Op::Else
                 | Op::EndIf
                 | Op::Clear
+                | Op::Enter
                 | Op::Leave
                 | Op::LeaveIf
                 | Op::Join
@@ -174,17 +207,18 @@ impl<'p> Machine<'p> {
 
     fn trace(&self, inst: &Inst, observer: &mut dyn Observer) {
         let site = &self.program.sites[inst.x as usize];
+        let mut values = Vec::with_capacity(site.parts.len());
         for lane in 0..LANES {
             let (c, i) = (lane / WIDTH, lane % WIDTH);
             if self.mask.lanes[c].0[i] != TRUE {
                 continue;
             }
-            let words: Vec<u64> = site
-                .parts
-                .iter()
-                .map(|slot| self.memory[slot.chunk(c as u32)].0[i])
-                .collect();
-            observer.event(lane, &Event::new(site, &words));
+            let parts = site.parts.iter();
+            let words = parts.map(|slot| self.memory[slot.chunk(c as u32)].0[i]);
+            values.clear();
+            values.extend(site.shown(words));
+            let values = &values;
+            observer.event(lane, &Event { site, values });
         }
     }
 }

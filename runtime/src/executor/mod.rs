@@ -20,10 +20,10 @@ mod shape;
 mod trace;
 mod translate;
 
-pub use fault::Fault;
-pub use machine::{Limits, MAX_STEPS, Machine};
+pub use fault::{Fault, LoopKind, LoopSite};
+pub use machine::{Limits, MAX_FORMULA_TURNS, MAX_STEPS, MAX_TURNS, Machine};
 pub use painter::Painter;
-pub use program::{Buffer, Component, Options, Program, Start};
+pub use program::{Buffer, Component, Options, Program, Start, Watched};
 pub use rows::Rows;
 pub use trace::{Event, Observer, Shown, Site, SiteKind};
 

@@ -10,7 +10,7 @@ use pullback_compiler::{SceneModule, SettingValue};
 use super::fault::Fault;
 use super::lanes::LANES;
 use super::machine::{Limits, MAX_STEPS, Machine};
-use super::program::{Component, Options, Program, Start};
+use super::program::{Component, Options, Program, Start, Watched};
 use super::{Arithmetic, Observer};
 use crate::Error;
 use crate::pool::spread;
@@ -33,7 +33,7 @@ pub struct Painter {
     format: Format,
     /// Words of a pixel in `image`.
     words: usize,
-    /// Steps that the loops of one pixel may take in all.
+    /// Steps that the loops of one sample of a pixel may take in all.
     pub steps: u64,
     /// The storage `mesh` of a scene that has one.
     mesh: Vec<u64>,
@@ -55,7 +55,12 @@ impl Painter {
         };
         Ok(Self {
             words: pipeline.bytes_per_pixel() / 4,
-            ..Self::start(scene, Start::EntryPoint(entry), arithmetic, false)?
+            ..Self::start(
+                scene,
+                Start::EntryPoint(entry),
+                arithmetic,
+                Watched::Nothing,
+            )?
         })
     }
 
@@ -63,8 +68,12 @@ impl Painter {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn traced(scene: &SceneModule, arithmetic: Arithmetic) -> Result<Self, Error> {
-        Self::start(scene, Start::Function("shade"), arithmetic, true)
+    pub fn watched(
+        scene: &SceneModule,
+        arithmetic: Arithmetic,
+        watched: Watched,
+    ) -> Result<Self, Error> {
+        Self::start(scene, Start::Function("shade"), arithmetic, watched)
     }
 
     /// Translates the scene to be asked for colours at points of the picture: [`Self::shade`].
@@ -72,20 +81,25 @@ impl Painter {
     /// # Errors
     /// As [`Self::new`].
     pub fn shader(scene: &SceneModule, arithmetic: Arithmetic) -> Result<Self, Error> {
-        Self::start(scene, Start::Function("shade"), arithmetic, false)
+        Self::start(
+            scene,
+            Start::Function("shade"),
+            arithmetic,
+            Watched::Nothing,
+        )
     }
 
     fn start(
         scene: &SceneModule,
         start: Start,
         arithmetic: Arithmetic,
-        traced: bool,
+        watched: Watched,
     ) -> Result<Self, Error> {
         let format = scene.tier.precision.format();
         let options = Options {
             arithmetic,
             format,
-            traced,
+            watched,
         };
         Ok(Self {
             program: Program::new(&scene.module, &scene.info, start, options)?,
@@ -217,6 +231,7 @@ impl Painter {
         let limits = Limits {
             steps: self.steps,
             cancel: Some(cancel),
+            ..Limits::default()
         };
         for y in (0..tile.height).step_by(SIDE as usize) {
             for x in (0..tile.width).step_by(SIDE as usize) {
@@ -276,6 +291,7 @@ impl Painter {
         let limits = Limits {
             steps: self.steps,
             cancel: None,
+            ..Limits::default()
         };
         let mut colours = Vec::with_capacity(points.len());
         for group in points.chunks(LANES) {

@@ -6,7 +6,7 @@ use pullback_compiler::lower::Format;
 
 use super::Arithmetic;
 use super::code::{Form, Indexed, Inst};
-use super::fault::Fault;
+use super::fault::{Fault, LoopSite};
 use super::lanes::{CHUNKS, Slot};
 use super::library::LibraryCall;
 use super::trace::Site;
@@ -85,8 +85,34 @@ pub struct Options {
     pub arithmetic: Arithmetic,
     /// How the module holds the formula's numbers.
     pub format: Format,
-    /// Whether an observer is to see what is computed.
-    pub traced: bool,
+    /// What an observer is to see.
+    pub watched: Watched,
+}
+
+/// What of a run an observer sees.
+#[derive(Clone, Copy, Debug)]
+pub enum Watched {
+    /// Nothing.
+    Nothing,
+    /// That functions are entered whose names this tells, with their arguments.
+    Entries(fn(&str) -> bool),
+    /// Everything that is computed.
+    Everything,
+}
+
+impl Watched {
+    pub(super) fn is_everything(self) -> bool {
+        matches!(self, Self::Everything)
+    }
+
+    /// Whether the beginning of a function is seen.
+    pub(super) fn sees_entry(self, name: Option<&str>) -> bool {
+        match self {
+            Self::Nothing => false,
+            Self::Entries(is_seen) => name.is_some_and(is_seen),
+            Self::Everything => true,
+        }
+    }
 }
 
 /// A function of a module with all that it calls, translated once and run by any number of machines.
@@ -98,6 +124,7 @@ pub struct Program {
     pub(super) indices: Vec<Indexed>,
     pub(super) library: Vec<LibraryCall>,
     pub(super) sites: Vec<Site>,
+    pub(super) loops: Vec<LoopSite>,
     /// The numbers of the uniform variables, and of storage of fixed size that is only read.
     pub inputs: Vec<Component>,
     /// The other storage buffers.

@@ -1,6 +1,6 @@
 //! Values of a function on the processor, row by row: an evaluation module's `compute_main`.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::available_parallelism;
 
 use pullback_compiler::EvalModule;
@@ -10,7 +10,7 @@ use super::fault::Fault;
 use super::lanes::LANES;
 use super::machine::{Limits, MAX_STEPS, Machine};
 use super::painter::wide_word;
-use super::program::{Buffer, Options, Program, Start};
+use super::program::{Buffer, Options, Program, Start, Watched};
 use super::{Arithmetic, Observer};
 use crate::Error;
 use crate::evaluate::Surroundings;
@@ -37,23 +37,27 @@ impl Rows {
     /// # Errors
     /// [`Error::Executor`] if it holds what none of our modules does.
     pub fn new(module: &EvalModule, arithmetic: Arithmetic) -> Result<Self, Error> {
-        Self::start(module, arithmetic, false)
+        Self::start(module, arithmetic, Watched::Nothing)
     }
 
     /// Translates the module to be asked for what it computes on the way: [`Self::trace`].
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn traced(module: &EvalModule, arithmetic: Arithmetic) -> Result<Self, Error> {
-        Self::start(module, arithmetic, true)
+    pub fn watched(
+        module: &EvalModule,
+        arithmetic: Arithmetic,
+        watched: Watched,
+    ) -> Result<Self, Error> {
+        Self::start(module, arithmetic, watched)
     }
 
-    fn start(module: &EvalModule, arithmetic: Arithmetic, traced: bool) -> Result<Self, Error> {
+    fn start(module: &EvalModule, arithmetic: Arithmetic, watched: Watched) -> Result<Self, Error> {
         let format = module.tier.precision.format();
         let options = Options {
             arithmetic,
             format,
-            traced,
+            watched,
         };
         let start = Start::EntryPoint("compute_main");
         Ok(Self {
@@ -85,10 +89,18 @@ impl Rows {
     ) -> Result<(), Error> {
         self.check(count, rows)?;
         let tasks: Vec<_> = (0..count).step_by(TASK).collect();
+        let failed = AtomicBool::new(false);
         let part = |machine: &mut Machine, &start: &usize| {
+            if failed.load(Ordering::Relaxed) {
+                return Err(Fault::Cancelled);
+            }
             let end = (start + TASK).min(count);
             let numbers = &rows[start * self.columns..end * self.columns];
-            self.task(machine, end - start, numbers, &mut ())
+            let values = self.task(machine, end - start, numbers, &mut ());
+            if values.is_err() {
+                failed.store(true, Ordering::Relaxed);
+            }
+            values
         };
         let mut machine = self.machine(surroundings);
         if let [start] = tasks.as_slice() {
@@ -97,11 +109,16 @@ impl Rows {
         }
         let cores = available_parallelism().map_or(1, usize::from);
         let machines = (0..cores.min(tasks.len())).map(|_| self.machine(surroundings));
+        let mut stopped = None;
         for values in spread(machines.collect(), &tasks, part, || ()) {
-            let lost = || Fault::unsupported("a function of this kind");
-            results.extend(values.ok_or_else(lost)??);
+            match values.ok_or_else(|| Fault::unsupported("a function of this kind"))? {
+                Ok(values) => results.extend(values),
+                // what another task met goes before its being stopped for it
+                Err(Fault::Cancelled) => stopped = Some(Fault::Cancelled),
+                Err(fault) => return Err(fault.into()),
+            }
         }
-        Ok(())
+        stopped.map_or(Ok(()), |fault| Err(fault.into()))
     }
 
     /// Evaluates one row, with an observer that sees what is computed on the way.
@@ -177,6 +194,7 @@ impl Rows {
         let limits = Limits {
             steps: self.steps,
             cancel: Some(&never),
+            ..Limits::default()
         };
         for start in (0..count).step_by(LANES) {
             let lanes = LANES.min(count - start);

@@ -50,17 +50,7 @@ pub struct Event<'a> {
     /// Where.
     pub site: &'a Site,
     /// The components of the value.
-    pub values: Vec<Shown>,
-}
-
-impl<'a> Event<'a> {
-    pub(super) fn new(site: &'a Site, words: &[u64]) -> Self {
-        let values = words.iter().zip(&site.forms);
-        Self {
-            site,
-            values: values.map(|(&word, &form)| shown(word, form)).collect(),
-        }
-    }
+    pub values: &'a [Shown],
 }
 
 fn shown(word: u64, form: Form) -> Shown {
@@ -72,6 +62,15 @@ fn shown(word: u64, form: Form) -> Shown {
         Form::U64 => Shown::Integer(word.into()),
         Form::F32 => Shown::Real(f32::from_bits(word as u32).into()),
         Form::F64 => Shown::Real(f64::from_bits(word)),
+    }
+}
+
+impl Site {
+    /// What the words of its components mean.
+    pub(super) fn shown(&self, words: impl Iterator<Item = u64>) -> impl Iterator<Item = Shown> {
+        words
+            .zip(&self.forms)
+            .map(|(word, &form)| shown(word, form))
     }
 }
 

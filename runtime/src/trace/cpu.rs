@@ -6,7 +6,7 @@ use super::inputs::check;
 use super::site::{Event, Site, Trace};
 use super::{Recorders, Traced};
 use crate::evaluate::Surroundings;
-use crate::executor::{self, Arithmetic, Observer, Painter, Rows, Shown, SiteKind};
+use crate::executor::{self, Arithmetic, Observer, Painter, Rows, Shown, Watched};
 use crate::{Error, Frame};
 
 /// Events that are kept.
@@ -30,7 +30,8 @@ pub fn pixel_on_cpu(
     (scene.module, scene.info) = (traced.module.clone(), traced.info.clone());
     let middle = pixel.map(|k| f64::from(k) + 0.5);
     let mut log = Log::new(traced);
-    Painter::traced(&scene, arithmetic)?.trace(frame, settings, &[middle], &mut log)?;
+    let recorders = Watched::Entries(Recorders::is_name);
+    Painter::watched(&scene, arithmetic, recorders)?.trace(frame, settings, &[middle], &mut log)?;
     Ok(log.trace)
 }
 
@@ -48,7 +49,8 @@ pub fn row_on_cpu(
     let mut module = module.clone();
     (module.module, module.info) = (traced.module.clone(), traced.info.clone());
     let mut log = Log::new(traced);
-    Rows::traced(&module, arithmetic)?.trace(around, row, &mut log)?;
+    let recorders = Watched::Entries(Recorders::is_name);
+    Rows::watched(&module, arithmetic, recorders)?.trace(around, row, &mut log)?;
     Ok(log.trace)
 }
 
@@ -69,10 +71,6 @@ impl<'t> Log<'t> {
 
 impl Observer for Log<'_> {
     fn event(&mut self, _: usize, event: &executor::Event) {
-        let site = event.site;
-        if site.kind != SiteKind::Enter || !Recorders::is_name(&site.function_name) {
-            return;
-        }
         let Some((Shown::Integer(index), values)) = event.values.split_first() else {
             return;
         };

@@ -27,7 +27,7 @@ pub use inputs::{Access, Buffer, Inputs};
 pub use instrument::Detail;
 pub use parting::{Parting, Row, distance, parting, rows};
 pub use recorders::Recorders;
-pub use scan::{Oddities, scan};
+pub use scan::{Oddities, scan, scan_on_cpu};
 pub use site::{Event, Operand, Shape, Site, Trace, Value, What};
 pub use traced::Traced;
 

@@ -1,13 +1,17 @@
-//! Looking for pixels at which a formula's value is NaN or infinite.
+//! Looking for pixels at which a formula's value is NaN or infinite, on a device or on the processor.
 
 use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::available_parallelism;
 
-use pullback_compiler::SceneModule;
 use pullback_compiler::module::DEMANDS;
+use pullback_compiler::{SceneModule, SettingValue};
 
-use super::Traced;
 use super::instrument::Detail;
 use super::recorders::Entry;
+use super::{Recorders, Traced};
+use crate::executor::{self, Arithmetic, Machine, Observer, Painter, Shown, Watched};
+use crate::pool::spread;
 use crate::{Error, Frame, Gpu, Pipeline, Renderer, RowSink, Size};
 
 const SCAN: &str = include_str!("scan.wgsl");
@@ -63,13 +67,7 @@ pub fn scan(
         (SCAN, Entry::Recorders),
         scene.tier,
         "",
-        |name| {
-            if DEMANDS.contains(&name) {
-                Detail::Result
-            } else {
-                Detail::Nothing
-            }
-        },
+        results,
     )?;
     let mut scene = scene.clone();
     (scene.module, scene.info) = (traced.module, traced.info);
@@ -87,6 +85,92 @@ pub fn scan(
         size: frame.size,
         flags: sink.flags,
     })
+}
+
+/// [`scan`] on the processor, on all cores; `settings` are those that the scene is drawn with.
+///
+/// # Errors
+/// [`Error::Executor`], and [`Error::Invalid`] for a frame outside of the limits.
+pub fn scan_on_cpu(
+    arithmetic: Arithmetic,
+    scene: &SceneModule,
+    frame: &Frame,
+    settings: &[SettingValue],
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Oddities, Error> {
+    frame.check()?;
+    let traced = Traced::new(&scene.module, Recorders::Silent, scene.tier, "", results)?;
+    let mut scene = scene.clone();
+    (scene.module, scene.info) = (traced.module, traced.info);
+    let recorders = Watched::Entries(Recorders::is_name);
+    let painter = Painter::watched(&scene, arithmetic, recorders)?;
+    let rows: Vec<u32> = (0..frame.size.height).collect();
+    let failed = AtomicBool::new(false);
+    let look = |(): &mut (), &row: &u32| {
+        if failed.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+        let seen = row_on_cpu(&painter, frame, settings, row);
+        failed.fetch_or(seen.is_err(), Ordering::Relaxed);
+        seen.map(Some)
+    };
+    let cores = available_parallelism().map_or(1, usize::from);
+    let mut done = 0;
+    let seen = spread(vec![(); cores.min(rows.len())], &rows, look, || {
+        done += 1;
+        progress(done, rows.len() as u64);
+    });
+    let mut flags = Vec::new();
+    for row in seen {
+        let lost = || executor::Fault::unsupported("a picture of this kind");
+        flags.extend(row.ok_or_else(lost)??.unwrap_or_default());
+    }
+    Ok(Oddities {
+        size: frame.size,
+        flags,
+    })
+}
+
+/// Flags of the pixels of a row.
+fn row_on_cpu(
+    painter: &Painter,
+    frame: &Frame,
+    settings: &[SettingValue],
+    row: u32,
+) -> Result<Vec<u8>, Error> {
+    let middles: Vec<[f64; 2]> = (0..frame.size.width)
+        .map(|x| [x, row].map(|k| f64::from(k) + 0.5))
+        .collect();
+    let mut flags = vec![0; middles.len()];
+    let groups = middles.chunks(Machine::LANES);
+    for (points, flags) in groups.zip(flags.chunks_mut(Machine::LANES)) {
+        painter.trace(frame, settings, points, &mut Seen(flags))?;
+    }
+    Ok(flags)
+}
+
+/// Of the formula's functions, what they give.
+fn results(name: &str) -> Detail {
+    if DEMANDS.contains(&name) {
+        Detail::Result
+    } else {
+        Detail::Nothing
+    }
+}
+
+/// Flags by lane.
+struct Seen<'a>(&'a mut [u8]);
+
+impl Observer for Seen<'_> {
+    fn event(&mut self, lane: usize, event: &executor::Event) {
+        for value in event.values {
+            if let (Shown::Real(x), Some(flags)) = (value, self.0.get_mut(lane))
+                && !x.is_finite()
+            {
+                *flags |= if x.is_nan() { NAN } else { INFINITE };
+            }
+        }
+    }
 }
 
 struct Flags<'a> {

@@ -2,7 +2,7 @@
 
 use pullback_compiler::SettingValue;
 use pullback_compiler::lower::Precision;
-use pullback_runtime::executor::{Arithmetic, Event, Painter, Shown, SiteKind};
+use pullback_runtime::executor::{Arithmetic, Event, Painter, Shown, SiteKind, Watched};
 use pullback_runtime::{Frame, Pipeline, Size, View, fill_in_scale};
 
 use crate::facts::Surface;
@@ -219,7 +219,8 @@ pub fn measure(surface: &Surface, changes: &[(&str, Vec3)]) -> Counts {
     }
     let scene = subject.program.scene_module(0, Precision::Accurate);
     let scene = scene.unwrap_or_else(|_| panic!("{} has no scene", surface.name));
-    let painter = Painter::traced(&scene, Arithmetic::Ieee32).expect("a painter");
+    let painter =
+        Painter::watched(&scene, Arithmetic::Ieee32, Watched::Everything).expect("a painter");
     let bytes = scene.pack_settings(&settings);
     let params = subject.params.clone();
     let frame = Frame {

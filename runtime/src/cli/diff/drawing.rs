@@ -17,8 +17,8 @@ use crate::cli::{Console, Input, Numbers, Tier, spelling};
 /// `gpu:accurate`: what draws a picture.
 #[derive(Clone, Debug)]
 pub(in crate::cli) struct Side {
-    place: Place,
-    precision: Option<Tier>,
+    pub(in crate::cli) place: Place,
+    pub(in crate::cli) precision: Option<Tier>,
 }
 
 impl FromStr for Side {
@@ -88,11 +88,9 @@ fn drawn(subject: &Subject, side: &Side, console: &Console) -> Result<Named, Fai
         sink: &mut rows,
         progress: &mut progress,
     };
-    Artist::new(&computer, &scene, frame.pipeline)?.render(
-        &frame,
-        &subject.settings,
-        &mut counted,
-    )?;
+    Artist::new(&computer, &scene, frame.pipeline)?
+        .render(&frame, &subject.settings, &mut counted)
+        .map_err(|error| subject.source.blamed(error.into(), console))?;
     Ok(Named {
         picture: Bitmap::from_rgba(frame.size, &rows)?,
         name: format!("{} on {computer}", tier.precision.name()),

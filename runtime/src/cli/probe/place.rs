@@ -70,7 +70,7 @@ impl Place<'_> {
         let silent = shader.traced(subject, Recorders::Silent, limit)?;
         let mut columns = Vec::new();
         for machine in Machine::ALL {
-            if !arguments.on.contains(&machine) {
+            if !arguments.computes(machine) {
                 continue;
             }
             let trace = match (machine, gpu) {

@@ -4,7 +4,7 @@ use std::sync::atomic::Ordering;
 
 use super::{Limits, Machine};
 use crate::executor::code::{Inst, Op};
-use crate::executor::fault::Fault;
+use crate::executor::fault::{Fault, LoopKind, LoopSite};
 use crate::executor::lanes::{CHUNKS, Chunk, Mask};
 
 impl Machine<'_> {
@@ -32,7 +32,10 @@ impl Machine<'_> {
             Op::Leave => turn(memory, mask, inst, |active, waiting, _| {
                 (Chunk::ZERO, waiting.or(active))
             }),
-            Op::Clear => {
+            Op::Clear | Op::Enter => {
+                if let (Op::Enter, Some(turns)) = (inst.op, self.turns.get_mut(inst.x as usize)) {
+                    turns.since_entered = 0;
+                }
                 for c in 0..CHUNKS {
                     memory[inst.d.chunk(c as u32)] = Chunk::ZERO;
                     memory[inst.a.chunk(c as u32)] = Chunk::ZERO;
@@ -70,6 +73,28 @@ impl Machine<'_> {
             return Ok(());
         }
         *pc = inst.x as usize;
+        self.count(*pc, limits)
+    }
+
+    /// Counts a step of the loop whose first instruction is at `pc`.
+    fn count(&mut self, pc: usize, limits: Limits) -> Result<(), Fault> {
+        // the instruction before is the one that enters it
+        let this = self.program.code[pc - 1].x as usize;
+        let turns = &mut self.turns[this];
+        turns.since_entered += 1;
+        turns.in_all += 1;
+        let place = &self.program.loops[this];
+        let limit = match place.kind {
+            LoopKind::Formula => limits.formula_turns,
+            LoopKind::Scene | LoopKind::Samples => limits.turns,
+        };
+        if turns.since_entered > limit {
+            let place = Some(place.clone());
+            return Err(Fault::Turns { limit, place });
+        }
+        if place.kind == LoopKind::Samples {
+            self.begin_sample();
+        }
         self.group_steps += 1;
         if self.group_steps.is_multiple_of(1024)
             && limits
@@ -82,10 +107,17 @@ impl Machine<'_> {
             let most = self.steps.iter().flat_map(|chunk| chunk.0).max();
             if most.unwrap_or(0) > limits.steps {
                 let limit = limits.steps;
-                return Err(Fault::Steps { limit });
+                let place = self.longest().cloned();
+                return Err(Fault::Steps { limit, place });
             }
         }
         Ok(())
+    }
+
+    /// The loop that took the most steps.
+    fn longest(&self) -> Option<&LoopSite> {
+        let all = self.program.loops.iter().zip(&self.turns);
+        Some(all.max_by_key(|(_, turns)| turns.in_all)?.0)
     }
 }
 

@@ -115,7 +115,11 @@ fn inside<'f>(statement: &'f Statement, stack: &mut Vec<&'f Block>) {
 impl<'m> Translator<'m> {
     /// Makes the local variables, with their values at the start.
     pub(super) fn begin(&mut self, body: &mut Body<'m>) -> Result<(), Fault> {
-        if self.options.traced {
+        if self
+            .options
+            .watched
+            .sees_entry(body.function.name.as_deref())
+        {
             let (parts, mut forms) = (body.arguments.concat(), Vec::new());
             for argument in &body.function.arguments {
                 self.shapes
@@ -194,7 +198,7 @@ impl<'m> Translator<'m> {
         kind: SiteKind,
         value: Handle<Expression>,
     ) -> Result<(), Fault> {
-        if !self.options.traced {
+        if !self.options.watched.is_everything() {
             return Ok(());
         }
         let named = match kind {
@@ -217,7 +221,8 @@ impl<'m> Translator<'m> {
 
     /// Shows the results of a body that is at its end.
     pub(super) fn trace_results(&mut self, body: &mut Body<'m>) -> Result<(), Fault> {
-        if let (true, Some(result)) = (self.options.traced, &body.function.result) {
+        let is_seen = self.options.watched.is_everything();
+        if let (true, Some(result)) = (is_seen, &body.function.result) {
             let mut forms = Vec::new();
             self.shapes
                 .forms(&self.module.types[result.ty].inner, &mut forms)?;

@@ -3,12 +3,12 @@
 //! Lanes that do not run wait in registers. Where none is left the code goes on at the end of the block that is open, where
 //! others may join.
 
-use naga::{Block, Expression, Handle, Statement, SwitchCase, SwitchValue};
+use naga::{Block, Expression, Handle, Span, Statement, SwitchCase, SwitchValue};
 
 use super::Translator;
 use super::body::{Body, Exits, Known, Returns};
 use crate::executor::code::{Compare, Form, Inst, Op};
-use crate::executor::fault::Fault;
+use crate::executor::fault::{Fault, LoopSite};
 use crate::executor::lanes::Slot;
 use crate::executor::trace::SiteKind;
 
@@ -33,7 +33,7 @@ impl<'m> Translator<'m> {
         body: &mut Body<'m>,
         block: &'m Block,
     ) -> Result<(), Fault> {
-        for statement in block {
+        for (statement, &span) in block.span_iter() {
             if let Statement::Emit(range) = statement {
                 for handle in range.clone() {
                     self.tick(body);
@@ -42,7 +42,7 @@ impl<'m> Translator<'m> {
                 continue;
             }
             self.tick(body);
-            self.statement(body, statement)?;
+            self.statement(body, statement, span)?;
             self.tick(body);
         }
         Ok(())
@@ -57,7 +57,12 @@ impl<'m> Translator<'m> {
         Ok(())
     }
 
-    fn statement(&mut self, body: &mut Body<'m>, statement: &'m Statement) -> Result<(), Fault> {
+    fn statement(
+        &mut self,
+        body: &mut Body<'m>,
+        statement: &'m Statement,
+        span: Span,
+    ) -> Result<(), Fault> {
         match statement {
             Statement::Block(block) => self.statements(body, block),
             Statement::If {
@@ -70,7 +75,10 @@ impl<'m> Translator<'m> {
                 body: steps,
                 continuing,
                 break_if,
-            } => self.repeat(body, steps, continuing, *break_if),
+            } => {
+                self.loops.push(LoopSite::new(body.function, span));
+                self.repeat(body, steps, continuing, *break_if)
+            }
             Statement::Break => {
                 let exits = body.exits.last().copied();
                 self.leave(exits.map(|exits| exits.broken))
@@ -126,7 +134,7 @@ impl<'m> Translator<'m> {
         for (&d, &a) in body.results.clone().iter().zip(&parts) {
             self.emit(Inst::new(Op::Store).to(d).of(a));
         }
-        if self.options.traced && value.is_some() {
+        if self.options.watched.is_everything() && value.is_some() {
             let mut forms = Vec::new();
             if let Some(result) = &body.function.result {
                 self.shapes
@@ -184,7 +192,8 @@ impl<'m> Translator<'m> {
         break_if: Option<Handle<Expression>>,
     ) -> Result<(), Fault> {
         let (broken, continued) = (self.frame.take()?, self.frame.take()?);
-        self.emit(Inst::new(Op::Clear).to(broken).of(continued));
+        let this = self.loops.len() as u32 - 1;
+        self.emit(Inst::new(Op::Enter).to(broken).of(continued).at(this));
         let start = self.here();
         body.exits.push(Exits {
             broken,

@@ -17,7 +17,7 @@ use naga::valid::ModuleInfo;
 use naga::{Binding, Expression, Function, GlobalVariable, Handle, Module, TypeInner};
 
 use super::code::{Form, Indexed, Inst, Op};
-use super::fault::Fault;
+use super::fault::{Fault, LoopSite};
 use super::lanes::Slot;
 use super::library::LibraryCall;
 use super::program::{Buffer, Component, Options, Program, Start, started};
@@ -45,6 +45,7 @@ struct Translator<'m> {
     indices: Vec<Indexed>,
     library: Vec<LibraryCall>,
     sites: Vec<Site>,
+    loops: Vec<LoopSite>,
     inputs: Vec<Component>,
     buffers: Vec<Buffer>,
     globals: HashMap<Handle<GlobalVariable>, GlobalPlace>,
@@ -77,6 +78,7 @@ pub(super) fn program(
         indices: Vec::new(),
         library: Vec::new(),
         sites: Vec::new(),
+        loops: Vec::new(),
         inputs: Vec::new(),
         buffers: Vec::new(),
         globals: HashMap::new(),
@@ -205,6 +207,7 @@ impl<'m> Translator<'m> {
                 .map(|call| call.placed(uniforms))
                 .collect(),
             sites: self.sites.into_iter().map(site).collect(),
+            loops: self.loops,
             inputs: self.inputs.into_iter().map(component).collect(),
             buffers: self.buffers,
             arguments: arguments.into_iter().map(component).collect(),
