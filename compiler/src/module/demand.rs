@@ -13,7 +13,7 @@ use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, P
 use crate::stable::finish;
 
 /// Names of the stubs that are filled from a formula.
-pub const DEMANDS: [&str; 9] = [
+pub const DEMANDS: [&str; 10] = [
     "field",
     "field_colour",
     "field_grad",
