@@ -18,8 +18,6 @@ struct View {
 
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(4) var<storage, read_write> image: array<u32>;
-// Which samples of each pixel `sum_main` takes: the first, and how many. They are numbered row by row.
-@group(0) @binding(5) var<uniform> part: vec2u;
 
 // The scene's picture: linear rgb, premultiplied by alpha, and alpha at a point of the whole image.
 fn shade(pixel: vec2f) -> vec4f { return vec4f(); }
@@ -109,17 +107,18 @@ fn linear_main(@builtin(global_invocation_id) id: vec3u) {
     store(pixel_at(id.xy), pixel_mean(vec2f(id.xy) + view.tile));
 }
 
-// Pixels are four words apart, and behind the last one is a word for whether a sum has gone wrong.
+// Pixels are four words apart. Behind the last one are three words: whether a sum has gone wrong, the first sample that is to be
+// added to each pixel, and the one after the last. Samples of a pixel are numbered row by row.
 @compute @workgroup_size(8, 8)
 fn sum_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
         return;
     }
     let at = pixel_at(id.xy);
-    let before = stored(at);
-    store(at, with_samples(before, vec2f(id.xy) + view.tile, part.x, part.x + part.y));
+    let behind = 4u * view.tile_size.x * view.tile_size.y;
+    store(at, with_samples(stored(at), vec2f(id.xy) + view.tile, image[behind + 1u], image[behind + 2u]));
     if loops_end_early() {
-        image[4u * view.tile_size.x * view.tile_size.y] = 1u;
+        image[behind] = 1u;
     }
 }
 
