@@ -2,8 +2,8 @@
 // light. All average `view.samples`² regular samples in linear light; the first two encode to sRGB and dither by half a
 // step of 8 bits, as a function of the absolute pixel: tiles join without a seam and both passes agree.
 //
-// Where the samples of a pixel take too long for one pass, `sum_main` adds some of them at a time to what is in `image`, and
-// `encode_main` makes the same picture of the sum.
+// Where the samples of a pixel take too long for one pass, `sum_main` adds some of them at a time to what is in
+// `image`, and `encode_main` makes the same picture of the sum.
 
 struct View {
     center: vec2f,     // world coordinates of the centre of the whole image
@@ -63,8 +63,8 @@ fn dither_threshold(pixel: vec2u) -> f32 {
     return (f32(lattice >> 16u) + 0.5) / 65536.0;
 }
 
-// A mean as a displayable colour, not premultiplied, to be rounded to 8 bits by the caller. A value that 8 bits hold exactly stays
-// as it is.
+// A mean as a displayable colour, not premultiplied, to be rounded to 8 bits by the caller. A value that 8 bits hold
+// exactly stays as it is.
 fn encoded(mean: vec4f, corner: vec2f) -> vec4f {
     let alpha = clamp(mean.a, 0.0, 1.0);
     let encoded = srgb_encode(clamp(mean.rgb / max(alpha, 1e-6), vec3f(0.0), vec3f(1.0)));
@@ -107,8 +107,8 @@ fn linear_main(@builtin(global_invocation_id) id: vec3u) {
     store(pixel_at(id.xy), pixel_mean(vec2f(id.xy) + view.tile));
 }
 
-// Pixels are four words apart. Behind the last one are three words: whether a sum has gone wrong, the first sample that is to be
-// added to each pixel, and the one after the last. Samples of a pixel are numbered row by row.
+// Pixels are four words apart. Behind the last one are three words: whether a sum has gone wrong, the first sample
+// that is to be added to each pixel, and the one after the last. Samples of a pixel are numbered row by row.
 @compute @workgroup_size(8, 8)
 fn sum_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
@@ -148,8 +148,8 @@ fn store(at: u32, value: vec4f) {
     image[at + 3u] = words.w;
 }
 
-// Whether this invocation has used up the turns that the adapter allows all its loops together: then every further loop ends
-// after its first turn, without an error.
+// Whether this invocation has used up the turns that the adapter allows all its loops together: then every further
+// loop ends after its first turn, without an error.
 fn loops_end_early() -> bool {
     var turns = 0u;
     for (var k = view.zero; k < 2u; k++) {

@@ -10,7 +10,8 @@ use crate::{Error, Gpu};
 
 /// Bytes of a pixel's sum.
 const PIXEL: u64 = 16;
-/// Bytes behind the last pixel: a word that tells whether a sum has gone wrong, and two for the samples that are to be added.
+/// Bytes behind the last pixel: a word that tells whether a sum has gone wrong, and two for the samples that are to
+/// be added.
 const BEHIND: u64 = 16;
 
 /// Most pixels in a tile.
