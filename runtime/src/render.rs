@@ -185,6 +185,8 @@ pub struct Renderer {
     fragment: Option<FragmentStage>,
     linear: Option<ComputeStage>,
     sums: Option<SumStage>,
+    /// Whether the module can add samples up. One that looks for something in a picture, and draws none, need not.
+    adds_up: bool,
     /// Turns after which the adapter ends all loops of an invocation without an error, where it does.
     turns: Option<u32>,
     /// Samples of a pixel that a submission may have for that, as far as is known from pictures before.
@@ -222,6 +224,10 @@ impl Renderer {
             fragment: None,
             linear: None,
             sums: None,
+            adds_up: ["sum_main", "encode_main"].iter().all(|name| {
+                let mut entries = scene.module.entry_points.iter();
+                entries.any(|entry| entry.name == *name)
+            }),
             turns: turns::limit(gpu)?,
             most: u32::MAX,
         })
@@ -357,7 +363,8 @@ impl Renderer {
             queue.write_buffer(&self.uniforms.view, 0, bytemuck::bytes_of(&view));
         })?;
         // Only sums tell whether loops have ended early.
-        if self.turns.is_none() && budget.share(tile) == frame.samples_of_pixel() {
+        let whole = self.turns.is_none() && budget.share(tile) == frame.samples_of_pixel();
+        if whole || !self.adds_up {
             self.whole_tile(frame, tile, budget, look)
         } else {
             self.tile_in_parts(frame, tile, budget, look)

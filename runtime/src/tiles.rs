@@ -1,7 +1,7 @@
 //! How a picture is cut up so that no submission runs long and memory stays bounded.
 //!
-//! The picture is a stack of bands as wide as itself, which leave as rows. A band is worked off as a stack of
-//! tiles: one that would take too long is halved, or its samples are spread over several submissions. What is too long is
+//! The picture is a stack of bands as wide as itself, which leave as rows. A band is worked off as a stack of tiles:
+//! one that would take too long is halved, or its samples are spread over several submissions. What is too long is
 //! known from the tiles before.
 
 use std::time::Duration;
@@ -87,8 +87,9 @@ pub(crate) struct Budget {
 }
 
 impl Budget {
-    /// A small budget to start with: `PROBE²` calls, with all samples of a pixel in one submission while single cells allow
-    /// it. No tile will have more than `max_pixels` pixels, nor a side above `max_side`. Samples are counted per axis.
+    /// A small budget to start with: `PROBE²` calls, with all samples of a pixel in one submission while single cells
+    /// allow it. No tile will have more than `max_pixels` pixels, nor a side above `max_side`. Samples are counted
+    /// per axis.
     pub(crate) fn new(samples: u32, max_pixels: u64, max_side: u32) -> Self {
         let samples = samples.max(1).pow(2);
         Self {

@@ -1,7 +1,7 @@
 //! Small pictures of every scene that are kept as files, and how far another machine's may be from them.
 //!
-//! The files were drawn on the software adapter. Differences are what is noticed of them by eye (FLIP, mean over the picture); a
-//! picture is as it was where that is at most [`CAP`].
+//! The files were drawn on the software adapter. Differences are what is noticed of them by eye (FLIP, mean over the
+//! picture); a picture is as it was where that is at most [`CAP`].
 
 use std::path::PathBuf;
 
@@ -11,10 +11,10 @@ use pullback_runtime::{Error, Metadata, Pipeline, Size, image_file};
 use crate::corpus::{read, root};
 use crate::stills::{Machine, Still};
 
-/// The greatest mean of FLIP between a golden picture and the same picture from another machine. Measured between the software
-/// adapter and the executor, `cargo run -p pullback-tests --bin goldens -- --adapter ieee32` (and `reference`): 0.000517 for the
-/// special values of `slices` in `ieee32`, where rounding decides which plane is in front; else at most 0.000272, and at most
-/// 0.0001 for pictures of the gallery.
+/// The greatest mean of FLIP between a golden picture and the same picture from another machine. Measured between the
+/// software adapter and the executor, `cargo run -p pullback-tests --bin goldens -- --adapter ieee32` (and
+/// `reference`): 0.000517 for the special values of `slices` in `ieee32`, where rounding decides which plane is in
+/// front; else at most 0.000272, and at most 0.0001 for pictures of the gallery.
 pub const CAP: f64 = 0.0006;
 
 /// A picture that is kept: its panels side by side.

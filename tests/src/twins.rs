@@ -1,5 +1,5 @@
-//! Whole programs written by hand, one for each scene, beside what the compiler makes: how long a frame takes and how far it is from
-//! the f64 reference.
+//! Whole programs written by hand, one for each scene, beside what the compiler makes: how long a frame takes and how
+//! far it is from the f64 reference.
 
 mod canvas;
 mod clock;

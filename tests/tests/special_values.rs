@@ -1,5 +1,5 @@
-//! Undefined, infinite and constant fields in every scene. What each scene makes of them is tested beside its other colours
-//! (`scene_values`, `space`); here is what holds for all of them, and for `surface`.
+//! Undefined, infinite and constant fields in every scene. What each scene makes of them is tested beside its other
+//! colours (`scene_values`, `space`); here is what holds for all of them, and for `surface`.
 
 use pullback_compiler::scene::{self, Space};
 use pullback_runtime::{Gpu, Pipeline, Size};

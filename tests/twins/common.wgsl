@@ -1,5 +1,5 @@
-// What all twins share, as the "Common" tab of a collection of shaders: the frame, colours, lines, and a camera with a box. A twin
-// follows this text and has `fn shade(pixel: vec2f) -> vec3f`, linear rgb.
+// What all twins share, as the "Common" tab of a collection of shaders: the frame, colours, lines, and a camera with
+// a box. A twin follows this text and has `fn shade(pixel: vec2f) -> vec3f`, linear rgb.
 
 struct View {
     center: vec2f,
@@ -136,8 +136,8 @@ fn face(p: vec3f) -> vec3f {
     return sign(p) * select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), a.y >= a.z), vec3f(1.0, 0.0, 0.0), a.x >= a.y && a.x >= a.z);
 }
 
-// How much a function with gradient g changes per pixel, on the plane with normal n at distance t: the gradient within the plane,
-// foreshortened, and projected to the image.
+// How much a function with gradient g changes per pixel, on the plane with normal n at distance t: the gradient
+// within the plane, foreshortened, and projected to the image.
 fn screen_rate(c: Camera, t: f32, n: vec3f, g: vec3f) -> f32 {
     let h = g - n * (dot(g, c.d) / dot(n, c.d));
     let flat = h - BACK * dot(h, BACK);

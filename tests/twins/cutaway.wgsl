@@ -1,4 +1,5 @@
-// Three levels of Neovius' surface, cut open by a plane: as `nested`, on the part of the ray that is kept, with contour lines on the cut.
+// Three levels of Neovius' surface, cut open by a plane: as `nested`, on the part of the ray that is kept, with
+// contour lines on the cut.
 
 fn f(p: vec3f) -> f32 {
     let c = cos(p);

@@ -1,5 +1,5 @@
-// Three folded glowing rods: light added up along the ray where the field, made a distance by its slope, is small; the slope from
-// forward differences; equal sums of the emission times the step.
+// Three folded glowing rods: light added up along the ray where the field, made a distance by its slope, is small;
+// the slope from forward differences; equal sums of the emission times the step.
 
 fn smin(a: f32, b: f32, k: f32) -> f32 {
     let h = clamp(0.5 + 0.5 * (b - a) / k, 0.0, 1.0);

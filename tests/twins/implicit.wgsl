@@ -1,5 +1,5 @@
-// The curve of the folium and the double circle: distance by central differences, with the second derivative along the gradient
-// for the multiplicity.
+// The curve of the folium and the double circle: distance by central differences, with the second derivative along
+// the gradient for the multiplicity.
 
 fn f(p: vec2f) -> f32 {
     let c = dot(p, p) - 3.0;

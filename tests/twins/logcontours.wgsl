@@ -1,4 +1,5 @@
-// Logarithmic contours of three charges: lines of log2 |f| in three octaves, blended by how fast that changes on the screen.
+// Logarithmic contours of three charges: lines of log2 |f| in three octaves, blended by how fast that changes on the
+// screen.
 
 fn f(p: vec2f) -> f32 {
     let y2 = p.y * p.y;

@@ -1,5 +1,5 @@
-// Five levels of Schwarz' surface P: at each step along the ray all levels between both values, interpolated; normals from forward
-// differences.
+// Five levels of Schwarz' surface P: at each step along the ray all levels between both values, interpolated; normals
+// from forward differences.
 
 fn f(p: vec3f) -> f32 {
     let c = cos(PI * p);

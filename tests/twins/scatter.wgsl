@@ -1,5 +1,5 @@
-// A cloud with single scattering: for each step towards the eye a march to the light, as the source does it; the way through the box is
-// jittered.
+// A cloud with single scattering: for each step towards the eye a march to the light, as the source does it; the way
+// through the box is jittered.
 
 fn hash(v: u32) -> u32 {
     let state = v * 747796405u + 2891336453u;

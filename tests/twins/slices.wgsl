@@ -1,5 +1,5 @@
-// Slices through the potential of three charges: the active plane and three walls, contour lines by the gradient within the plane,
-// from forward differences.
+// Slices through the potential of three charges: the active plane and three walls, contour lines by the gradient
+// within the plane, from forward differences.
 
 fn f(p: vec3f) -> f32 {
     return inverseSqrt(dot(p - vec3f(1.25, 0.0, 0.0), p - vec3f(1.25, 0.0, 0.0)))

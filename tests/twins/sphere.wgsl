@@ -1,5 +1,5 @@
-// Two steps of the iteration of Doyle and McMullen on the Riemann sphere, by stereographic projection from the south pole;
-// derivatives by forward differences on the screen.
+// Two steps of the iteration of Doyle and McMullen on the Riemann sphere, by stereographic projection from the south
+// pole; derivatives by forward differences on the screen.
 
 fn newton(z: vec2f) -> vec2f {
     let z2 = mul(z, z);

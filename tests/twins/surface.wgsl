@@ -1,5 +1,5 @@
-// Cayley's cubic in a box on the ground: equal steps along the ray until the sign changes, a few secant steps, forward differences for
-// the gradient.
+// Cayley's cubic in a box on the ground: equal steps along the ray until the sign changes, a few secant steps,
+// forward differences for the gradient.
 
 fn f(p: vec3f) -> f32 {
     return dot(p, p) + 2.0 * p.x * p.y * p.z - 1.0;

@@ -2,8 +2,8 @@
 // light. All average `view.samples`² regular samples in linear light; the first two encode to sRGB and dither by half a
 // step of 8 bits, as a function of the absolute pixel: tiles join without a seam and both passes agree.
 //
-// Where the samples of a pixel take too long for one pass, `sum_main` adds some of them at a time to what is in `image`, and
-// `encode_main` makes the same picture of the sum.
+// Where the samples of a pixel take too long for one pass, `sum_main` adds some of them at a time to what is in
+// `image`, and `encode_main` makes the same picture of the sum.
 
 struct View {
     center: vec2f,     // world coordinates of the centre of the whole image
@@ -18,8 +18,6 @@ struct View {
 
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(5) var<storage, read_write> image: array<u32>;
-// Which samples of each pixel `sum_main` takes: the first, and how many. They are numbered row by row.
-@group(0) @binding(6) var<uniform> part: vec2u;
 
 // The scene's picture: linear rgb, premultiplied by alpha, and alpha at a point of the whole image.
 fn shade(pixel: vec2f) -> vec4f { return vec4f(); }
@@ -65,7 +63,7 @@ fn dither_threshold(pixel: vec2u) -> f32 {
     return (f32(lattice >> 16u) + 0.5) / 65536.0;
 }
 
-// A mean, premultiplied, as a displayable colour that is not, to be rounded to 8 bits by the caller. A value that 8 bits hold
+// A mean as a displayable colour, not premultiplied, to be rounded to 8 bits by the caller. A value that 8 bits hold
 // exactly stays as it is.
 fn encoded(mean: vec4f, corner: vec2f) -> vec4f {
     let alpha = clamp(mean.a, 0.0, 1.0);
@@ -109,17 +107,18 @@ fn linear_main(@builtin(global_invocation_id) id: vec3u) {
     store(pixel_at(id.xy), pixel_mean(vec2f(id.xy) + view.tile));
 }
 
-// Pixels are four words apart, and behind the last one is a word for whether a sum has gone wrong.
+// Pixels are four words apart. Behind the last one are three words: whether a sum has gone wrong, the first sample
+// that is to be added to each pixel, and the one after the last. Samples of a pixel are numbered row by row.
 @compute @workgroup_size(8, 8)
 fn sum_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
         return;
     }
     let at = pixel_at(id.xy);
-    let before = stored(at);
-    store(at, with_samples(before, vec2f(id.xy) + view.tile, part.x, part.x + part.y));
+    let behind = 4u * view.tile_size.x * view.tile_size.y;
+    store(at, with_samples(stored(at), vec2f(id.xy) + view.tile, image[behind + 1u], image[behind + 2u]));
     if loops_end_early() {
-        image[4u * view.tile_size.x * view.tile_size.y] = 1u;
+        image[behind] = 1u;
     }
 }
 
@@ -149,8 +148,8 @@ fn store(at: u32, value: vec4f) {
     image[at + 3u] = words.w;
 }
 
-// Whether this invocation has used up the turns that the adapter allows all its loops together: then every further loop ends
-// after its first turn, without an error.
+// Whether this invocation has used up the turns that the adapter allows all its loops together: then every further
+// loop ends after its first turn, without an error.
 fn loops_end_early() -> bool {
     var turns = 0u;
     for (var k = view.zero; k < 2u; k++) {

@@ -1,8 +1,8 @@
 //! How many turns loops may make.
 //!
-//! llvmpipe counts the turns of all loops of an invocation together and, when they are used up, lets every loop end after
-//! its next turn, without an error (Mesa, `src/gallium/auxiliary/gallivm/lp_bld_ir_common.c`). What is computed by such a
-//! loop is wrong, and a short loop at the end tells.
+//! llvmpipe counts the turns of all loops of an invocation together and, when they are used up, lets every loop end
+//! after its next turn, without an error (Mesa, `src/gallium/auxiliary/gallivm/lp_bld_ir_common.c`). What is computed
+//! by such a loop is wrong, and a short loop at the end tells.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -19,8 +19,8 @@ const TRIED: u32 = 1 << 20;
 /// Findings of this process.
 static KNOWN: Mutex<Vec<(Key, Option<u32>)>> = Mutex::new(Vec::new());
 
-/// The number of turns after which the adapter ends all loops of an invocation without an error; none where 2²⁰ turns are
-/// made. It is tried once in a process.
+/// The number of turns after which the adapter ends all loops of an invocation without an error; none where 2²⁰ turns
+/// are made. It is tried once in a process.
 ///
 /// # Errors
 /// The device's; and where loops end early, but later ones do not tell of it, so that no picture could be trusted.

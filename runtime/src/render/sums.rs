@@ -10,8 +10,9 @@ use crate::{Error, Gpu};
 
 /// Bytes of a pixel's sum.
 const PIXEL: u64 = 16;
-/// Bytes behind the last pixel, for the word that tells whether a sum has gone wrong.
-const VERDICT: u64 = 16;
+/// Bytes behind the last pixel: a word that tells whether a sum has gone wrong, and two for the samples that are to
+/// be added.
+const BEHIND: u64 = 16;
 
 /// Most pixels in a tile.
 pub(super) fn max_pixels(gpu: &Gpu) -> u64 {
@@ -19,7 +20,7 @@ pub(super) fn max_pixels(gpu: &Gpu) -> u64 {
     let bytes = limits
         .max_storage_buffer_binding_size
         .min(limits.max_buffer_size);
-    bytes.saturating_sub(VERDICT) / PIXEL
+    bytes.saturating_sub(BEHIND) / PIXEL
 }
 
 /// Pipelines and buffers.
@@ -31,7 +32,6 @@ pub(super) struct SumStage {
     sum: wgpu::ComputePipeline,
     /// Made when first used: linear light needs none.
     encode: Option<wgpu::ComputePipeline>,
-    part: wgpu::Buffer,
     image: Growing,
     readable: Growing,
     bindings: Option<wgpu::BindGroup>,
@@ -59,11 +59,10 @@ impl SumStage {
             },
             ..view
         };
-        let part = wgpu::BindGroupLayoutEntry { binding: 6, ..view };
         let (layout, sum) = gpu.guarded("compiling the pipeline of sums", || {
             let descriptor = wgpu::BindGroupLayoutDescriptor {
                 label: Some("sums"),
-                entries: &[&inputs[..], &[image, part]].concat(),
+                entries: &[&inputs[..], &[image]].concat(),
             };
             let layout = gpu.device().create_bind_group_layout(&descriptor);
             let sum = pipeline(gpu, shader, &layout, "sum_main");
@@ -75,7 +74,6 @@ impl SumStage {
             layout,
             sum,
             encode: None,
-            part: buffers::uniform(gpu, "part", 16)?,
             image: Growing::sums(),
             readable: Growing::readable(),
             bindings: None,
@@ -91,7 +89,7 @@ impl SumStage {
         budget: &mut Budget,
     ) -> Result<Drawn, Error> {
         let gpu = self.gpu.clone();
-        let bytes = tile.pixels() * PIXEL + VERDICT;
+        let bytes = tile.pixels() * PIXEL + BEHIND;
         let (image, new) = self.image.at_least(&gpu, bytes)?;
         let (readable, _) = self.readable.at_least(&gpu, bytes)?;
         if new || self.bindings.is_none() {
@@ -104,7 +102,7 @@ impl SumStage {
             largest_part = largest_part.max(count);
             let start = Instant::now();
             let last = done + count == total;
-            let mut encoder = self.record(&image, bytes, tile, (done, count))?;
+            let mut encoder = self.record(&image, tile, (done, count))?;
             done += count;
             if last {
                 self.finish(&mut encoder, frame, tile)?;
@@ -131,20 +129,20 @@ impl SumStage {
     fn record(
         &mut self,
         image: &wgpu::Buffer,
-        bytes: u64,
         tile: Tile,
         (first, count): (u32, u32),
     ) -> Result<wgpu::CommandEncoder, Error> {
         self.gpu.guarded("recording", || {
-            let part = [first, count, 0, 0];
+            let verdict = tile.pixels() * PIXEL;
+            let part = [first, first + count];
             let queue = self.gpu.queue();
-            queue.write_buffer(&self.part, 0, bytemuck::cast_slice(&part));
+            queue.write_buffer(image, verdict + 4, bytemuck::cast_slice(&part));
             let mut encoder = self
                 .gpu
                 .device()
                 .create_command_encoder(&Default::default());
             if first == 0 {
-                encoder.clear_buffer(image, 0, Some(bytes));
+                encoder.clear_buffer(image, 0, Some(verdict + 4));
             }
             self.pass(&mut encoder, &self.sum, tile);
             encoder
@@ -185,12 +183,10 @@ impl SumStage {
 
     fn bind(&self, uniforms: &Uniforms, image: &wgpu::Buffer) -> Result<wgpu::BindGroup, Error> {
         let mut entries = uniforms.entries().to_vec();
-        entries.extend([(5, image), (6, &self.part)].map(|(binding, buffer)| {
-            wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.as_entire_binding(),
-            }
-        }));
+        entries.push(wgpu::BindGroupEntry {
+            binding: 5,
+            resource: image.as_entire_binding(),
+        });
         self.gpu.guarded("recording", || {
             let descriptor = wgpu::BindGroupDescriptor {
                 label: Some("sums"),
@@ -204,8 +200,8 @@ impl SumStage {
 
 /// The rows of a tile, from what `sum_main` and `encode_main` have written; none if loops have ended early.
 fn rows(words: &[u8], frame: &Frame, tile: Tile) -> Option<Vec<u8>> {
-    let (pixels, verdict) = words.split_at((tile.pixels() * PIXEL) as usize);
-    if verdict.iter().any(|&byte| byte != 0) {
+    let (pixels, behind) = words.split_at((tile.pixels() * PIXEL) as usize);
+    if behind.iter().take(4).any(|&byte| byte != 0) {
         return None;
     }
     if frame.pipeline != Pipeline::Linear {

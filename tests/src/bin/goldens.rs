@@ -1,5 +1,5 @@
-//! Compares the golden pictures with those of a machine, and prints how they differ. The files, `docs/gallery` and `tests/data/goldens`,
-//! are those of the tree it was compiled in, or of the current folder.
+//! Compares the golden pictures with those of a machine, and prints how they differ. The files, `docs/gallery` and
+//! `tests/data/goldens`, are those of the tree it was compiled in, or of the current folder.
 
 use std::process::ExitCode;
 

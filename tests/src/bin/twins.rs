@@ -1,5 +1,5 @@
-//! Frame times of the compiler's scenes against programs written by hand, and how far both are from the f64 reference: a table in Markdown.
-//! The executable carries all that it needs.
+//! Frame times of the compiler's scenes against programs written by hand, and how far both are from the f64
+//! reference: a table in Markdown. The executable carries all that it needs.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -30,8 +30,8 @@ struct Options {
     /// Times alone, without the f64 reference
     #[arg(long)]
     times: bool,
-    /// A scene in WGSL, as `pullback emit --what scene` writes it, that is timed in the place of `fast`: to find out what
-    /// costs by leaving it out
+    /// A scene in WGSL, as `pullback emit --what scene` writes it, that is timed in the place of `fast`: to find out
+    /// what costs by leaving it out
     #[arg(long)]
     instead: Option<PathBuf>,
     /// Where to write the pictures that are compared
