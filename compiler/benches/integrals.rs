@@ -50,7 +50,13 @@ fn main() {
     }
     times.sort();
     let (median, worst) = (&times[times.len() / 2], &times[times.len() - 1]);
-    println!("{} densities: median {:?}, greatest {:?} for {}", times.len(), median.0, worst.0, worst.1);
+    println!(
+        "{} densities: median {:?}, greatest {:?} for {}",
+        times.len(),
+        median.0,
+        worst.0,
+        worst.1
+    );
     println!("\n| density | operations | by hand |\n| --- | ---: | ---: |");
     for (text, by_hand) in BY_HAND {
         let made = field_integral(&formula(text).expect(text), Otherwise::Refuse).expect(text);

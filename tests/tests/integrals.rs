@@ -7,7 +7,7 @@ use pullback_compiler::formula::Formula;
 use pullback_compiler::integrate::{FieldIntegral, Otherwise, field_integral};
 use pullback_compiler::ir::{Graph, Op, Ty, transcribe};
 use pullback_compiler::lower::Precision;
-use pullback_compiler::{What, compile, compile_function};
+use pullback_compiler::{EmitWhat, Target, What, compile, compile_function};
 use pullback_runtime::executor::Arithmetic;
 use pullback_tests::accuracy::evaluators::{Machine, Point};
 
@@ -388,7 +388,10 @@ const TEXTBOOK: [(&str, &str); 12] = [
         "(x^2 + y^2 + z^2 - 1)^2",
         "A^2 t^5/5 + A B t^4 + (4 B^2 + 2 A (C - 1)) t^3/3 + 2 B (C - 1) t^2 + (C - 1)^2 t",
     ),
-    ("1/(x^2 + y^2 + z^2 + 0.01)", "atan((A t + B)/sqrt(D + 0.01 A))/sqrt(D + 0.01 A)"),
+    (
+        "1/(x^2 + y^2 + z^2 + 0.01)",
+        "atan((A t + B)/sqrt(D + 0.01 A))/sqrt(D + 0.01 A)",
+    ),
     (
         "1/(x^2 + y^2 + z^2 + 0.01)^2",
         "(A t + B)/(2 k (q + 0.01)) + A atan((A t + B)/sqrt(k))/(2 k sqrt(k)) where k = D + 0.01 A",
@@ -397,8 +400,14 @@ const TEXTBOOK: [(&str, &str); 12] = [
         "length((x, y, z))",
         "(A t + B) sqrt(q)/(2 A) + D log(A t + B + sqrt(A) sqrt(q))/(2 A sqrt(A))",
     ),
-    ("1/length((x, y, z))", "log(A t + B + sqrt(A) sqrt(q))/sqrt(A)"),
-    ("exp(-(x^2 + y^2 + z^2))", "sqrt(pi)/(2 sqrt(A)) exp(-D/A) erf((A t + B)/sqrt(A))"),
+    (
+        "1/length((x, y, z))",
+        "log(A t + B + sqrt(A) sqrt(q))/sqrt(A)",
+    ),
+    (
+        "exp(-(x^2 + y^2 + z^2))",
+        "sqrt(pi)/(2 sqrt(A)) exp(-D/A) erf((A t + B)/sqrt(A))",
+    ),
 ];
 
 /// F(b) - F(a) as a function of the ray.
@@ -416,7 +425,9 @@ fn textbook(antiderivative: &str) -> Formula {
 fn some_rays(count: usize) -> Vec<Vec<f64>> {
     let mut state = 12345_u64;
     let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     };
     let mut between = |lo: f64, hi: f64| f64::from((lo + (hi - lo) * next()) as f32);
@@ -427,14 +438,26 @@ fn some_rays(count: usize) -> Vec<Vec<f64>> {
             0 => between(-0.9, 0.9),
             1 => between(-1.0, 1.0) * 1e-3,
             2 => between(-1.0, 1.0) * 1e-6,
-            _ => if k % 8 == 3 { 0.0 } else { between(-1.0, 1.0) * 1e-2 },
+            _ => {
+                if k % 8 == 3 {
+                    0.0
+                } else {
+                    between(-1.0, 1.0) * 1e-2
+                }
+            }
         };
         let flat = (1.0 - rate * rate).sqrt();
         let d = [flat * angle.cos(), rate, flat * angle.sin()];
         let distance = if k % 5 == 0 { 8.0 } else { 0.0 };
-        let o: Vec<f64> = (0..3).map(|c| between(-2.0, 2.0) - distance * d[c]).collect();
+        let o: Vec<f64> = (0..3)
+            .map(|c| between(-2.0, 2.0) - distance * d[c])
+            .collect();
         let length = 10_f64.powf(between(-3.0, 0.8));
-        let a = if distance > 0.0 { 6.0 } else { between(-1.0, 1.0) };
+        let a = if distance > 0.0 {
+            6.0
+        } else {
+            between(-1.0, 1.0)
+        };
         let numbers = o.into_iter().chain(d).chain([a, a + length]);
         out.push(numbers.map(|x| f64::from(x as f32)).collect());
     }
@@ -445,8 +468,17 @@ fn some_rays(count: usize) -> Vec<Vec<f64>> {
 fn told(mut errors: Vec<f64>) -> (String, [f64; 2]) {
     errors.sort_by(f64::total_cmp);
     let (median, worst) = (errors[errors.len() / 2], errors[errors.len() - 1]);
-    let digit = |x: f64| if x.is_finite() { format!("{x:.0e}") } else { "∞".to_owned() };
-    (format!("{} | {}", digit(median), digit(worst)), [median, worst])
+    let digit = |x: f64| {
+        if x.is_finite() {
+            format!("{x:.0e}")
+        } else {
+            "∞".to_owned()
+        }
+    };
+    (
+        format!("{} | {}", digit(median), digit(worst)),
+        [median, worst],
+    )
 }
 
 /// The table of `docs/integrals.md`: the closed forms against F(b) - F(a) on the same 400 rays in binary32. `BLESS=1`
@@ -459,11 +491,17 @@ fn closed_forms_against_the_textbook() {
     let mut table = BEGIN.to_owned();
     for (density, antiderivative) in TEXTBOOK {
         let of = formula(density);
-        let integral = field_integral(&of, Otherwise::Refuse).unwrap().into_formula(&of);
+        let integral = field_integral(&of, Otherwise::Refuse)
+            .unwrap()
+            .into_formula(&of);
         let sized = formula(&format!("abs({density})"));
-        let size = field_integral(&sized, Otherwise::Quadrature).unwrap().into_formula(&sized);
+        let size = field_integral(&sized, Otherwise::Quadrature)
+            .unwrap()
+            .into_formula(&sized);
         let run = |machine: &Machine, formula: &Formula| -> Vec<f64> {
-            let rows = machine.run(formula, What::Value, &rays).unwrap_or_else(|e| panic!("{density}: {e}"));
+            let rows = machine
+                .run(formula, What::Value, &rays)
+                .unwrap_or_else(|e| panic!("{density}: {e}"));
             rows.iter().map(|row| row[0]).collect()
         };
         let exact = run(&Machine::Reference, &integral);
@@ -479,17 +517,169 @@ fn closed_forms_against_the_textbook() {
         let (ours, [median, worst]) = errors(run(&machine, &integral));
         table += &format!("| `{density}` | {naive} | {ours} |\n");
         // what is left comes of the roundings of rays that meet a zero of f
-        assert!(median < 5e-7 && worst < 1e-2 * bad, "{density}: {ours}, textbook {naive}");
+        assert!(
+            median < 5e-7 && worst < 1e-2 * bad,
+            "{density}: {ours}, textbook {naive}"
+        );
     }
     println!("{table}");
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/integrals.md");
     let page = std::fs::read_to_string(&path).unwrap();
     let start = page.find(BEGIN).expect("the head of the table");
-    let end = page[start..].find("\n\n").map_or(page.len(), |n| start + n + 1);
+    let end = page[start..]
+        .find("\n\n")
+        .map_or(page.len(), |n| start + n + 1);
     let now = format!("{}{table}{}", &page[..start], &page[end..]);
     if std::env::var_os("BLESS").is_some() {
         std::fs::write(&path, now).unwrap();
     } else {
-        assert!(page == now, "docs/integrals.md is not up to date: run with BLESS=1 and read the difference");
+        assert!(
+            page == now,
+            "docs/integrals.md is not up to date: run with BLESS=1 and read the difference"
+        );
+    }
+}
+
+/// Integrals that stand in formulas, at x = 2, y = 1; by mpmath's quad.
+#[test]
+fn integrals_of_the_language() {
+    for (text, exact) in [
+        (
+            "integral(exp(-t) sin(2 t)^2, t, 0, x)",
+            0.386_589_075_958_063_04,
+        ),
+        (
+            "integral(max(0, 1 - |t - y|)^2 exp(-t^2), t, -1, x)",
+            0.264_626_483_727_039,
+        ),
+        ("quadrature(t + sin(t^2), t, 0, x)", 2.804_776_489_343_756_1),
+        (
+            "integral(sqrt(1 + t^2), t, x, -y)",
+            -4.105_679_289_785_513_9,
+        ),
+        (
+            "integral((cos(t), t^3), t, 0, x).x",
+            0.909_297_426_825_681_7,
+        ),
+        ("integral((cos(t), t^3), t, 0, x).y", 4.0),
+        (
+            "integral(integral(t u + t^2, t, 0, u), u, 0, x)",
+            10.0 / 3.0,
+        ),
+        ("integral(t in 0..x, exp(-t^2))", 0.882_081_390_762_421_68),
+        (
+            "integral(sum(k in 1..5, sin(k t)/k), t, 0, x)",
+            1.979_139_878_744_656_8,
+        ),
+        ("integral(g(t), t, 0, x)\ng(t) = t^2", 8.0 / 3.0),
+        (
+            "diff(integral(exp(-t^2), t, 0, x), x)",
+            0.018_315_638_888_734_18,
+        ),
+    ] {
+        let program = compile(&format!("f(x, y) = {text}"));
+        let program = program
+            .program
+            .unwrap_or_else(|| panic!("{text}: {:?}", program.diagnostics));
+        let point = [Point {
+            args: vec![2.0, 1.0],
+            params: Vec::new(),
+        }];
+        let formula = &program.pictures()[0].formula;
+        let found = Machine::Reference
+            .run(formula, What::Value, &point)
+            .unwrap()[0][0];
+        assert!(
+            (found - exact).abs() < 1e-12,
+            "{text}: {found}, not {exact}"
+        );
+    }
+}
+
+/// The function of an integral along a ray in every shading language.
+#[test]
+fn integrals_are_emitted() {
+    let densities = [
+        "0.5 + 0.5 sin(16 y - 8 time)",
+        "if 0 < y + 1 and y + 1 < 2 then (y + 1)^2 else 0",
+        "x^2 exp(-y) + max(0, 1 - |x|) + 1/(x^2 + y^2 + z^2 + 0.1)^2",
+        "exp(-x^2 - y^2) z + sqrt(x^2 + z^2) + sum(k in 1..3, sin(k x)/k)",
+        "exp(-x^3)",
+    ];
+    for density in densities {
+        let program = compile(&format!("f(x, y, z) = {density}")).program.unwrap();
+        for target in [
+            Target::Wgsl,
+            Target::Glsl,
+            Target::Hlsl,
+            Target::Msl,
+            Target::Spirv,
+        ] {
+            let made = program.emit(0, EmitWhat::Integral, target, Precision::Accurate);
+            let made = made.unwrap_or_else(|e| panic!("{density}: {e:?}"));
+            if target == Target::Wgsl {
+                let text = String::from_utf8(made).unwrap();
+                assert!(
+                    text.contains("fn f_integral(o: vec3<f32>, d: vec3<f32>, a: f32, b: f32"),
+                    "{text}"
+                );
+            }
+        }
+    }
+}
+
+/// What has no closed form is named, and whether that is proven.
+#[test]
+fn refusals_name_the_part() {
+    for (density, part, is_proven) in [
+        ("x + exp(-x^3)", "exp(-x^3)", true),
+        ("y sin(x y)", "sin(x y)", true),
+        ("z + tan(x)", "tan(x)", false),
+        ("exp(x)/(y + 4)", "exp(x)/(y + 4)", true),
+        ("sqrt(x^3 + y + 20)", "sqrt(x^3 + y + 20)", true),
+        ("(1 + x^2)^0.3", "(1 + x^2)^0.3", false),
+        ("floor(x) + y", "floor(x)", false),
+        ("max(sin(x), 0) + y", "sin(x)", false),
+    ] {
+        let text = format!("f(x, y, z) = {density}");
+        let of = compile(&text).program.unwrap().pictures()[0]
+            .formula
+            .clone();
+        let problem = field_integral(&of, Otherwise::Refuse).unwrap_err();
+        assert_eq!(
+            (problem.span.text(&text), problem.reason.is_proven()),
+            (part, is_proven),
+            "{problem:?}"
+        );
+        let made = field_integral(&of, Otherwise::Quadrature).unwrap();
+        assert_eq!(made.integral.numerical.len(), 1, "{density}");
+    }
+}
+
+/// Bounds are errors that say so, and come soon.
+#[test]
+fn bounds_are_errors() {
+    for (density, what) in [
+        ("product(k in 1..9, sin(k x))*exp(tan(y))", "none"),
+        (
+            "(sin(x) + sin(2 x) + sin(3 x) + cos(y) + cos(2 y) + cos(3 z))^9",
+            "at most",
+        ),
+        (
+            "sin(x) sin(2 x) sin(3 x) sin(4 x) sin(5 x) sin(6 x) sin(7 x) sin(8 x) sin(9 y) sin(10 y) sin(11 z) sin(12 z)",
+            "at most",
+        ),
+        ("x^17 exp(y)", "at most"),
+        ("sin(x)^40", "at most"),
+        ("(x^30 + y) (y^40 + z)", "at most"),
+    ] {
+        let of = formula(density);
+        let started = std::time::Instant::now();
+        let problem = field_integral(&of, Otherwise::Refuse).unwrap_err();
+        assert!(started.elapsed().as_secs() < 20, "{density}");
+        assert!(
+            problem.reason.in_words().contains(what) || what == "none",
+            "{density}: {problem:?}"
+        );
     }
 }

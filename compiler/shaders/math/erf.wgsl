@@ -127,7 +127,7 @@ fn times_half_root_pi(v: f32) -> f32 {
     return v * 0.88622695 + v * -2.66232e-08;
 }
 
-/// Nodes and weights on the right of Gauss and Legendre's rule of 8 points (DLMF 3.5.v).
+/// Nodes and weights on the right of Gauss and Legendre's rule of 8 points (DLMF 3.5.v); special.py, gauss_node_single.
 fn gauss_node(k: i32) -> vec2f {
     switch k {
         case 0: { return vec2f(0.96028984, 0.101228535); }

@@ -9,7 +9,9 @@ coefficients of digamma, in 60 digits. Needs: mpmath.
 import struct
 import sys
 
-from mpmath import bernoulli, atan, atanh, euler, factorial, findroot, log, mp, mpf, nstr, pi, psi, sqrt, taylor, zeta
+from mpmath import (
+    atan, atanh, bernoulli, cos, erfc, euler, exp, factorial, findroot, legendre, log, mp, mpf, pi, psi, sqrt, taylor, zeta,
+)
 
 mp.dps = 60
 
@@ -59,6 +61,40 @@ def table(values):
     return "\n".join("        case %d: { return %s; }" % (k, lit(v)) for k, v in enumerate(values))
 
 
+def chebyshev(f, count, points=80):
+    """Chebyshev coefficients of f on [-1, 1], the first halved: the sums of DLMF 3.11.11 at that many points."""
+    angles = [pi * (k + mpf(1) / 2) / points for k in range(points)]
+    values = [f(cos(a)) for a in angles]
+    c = [2 * sum(v * cos(j * a) for v, a in zip(values, angles)) / points for j in range(count)]
+    return [c[0] / 2] + c[1:]
+
+
+def erfcx_mapped(y):
+    """(1 + 2 x) exp(x^2) erfc x for y = (x - 3)/(x + 3)"""
+    x = 3 * (1 + y) / (1 - y)
+    return (1 + 2 * x) * exp(x * x) * erfc(x)
+
+
+def gauss_rule(n):
+    """Nodes and weights of Gauss and Legendre's rule that lie right of 0, from the right (DLMF 3.5.v)."""
+    for k in range(1, n // 2 + 1):
+        x = findroot(lambda x: legendre(n, x), cos(pi * (k - mpf(1) / 4) / (n + mpf(1) / 2)))
+        slope = n * (x * legendre(n, x) - legendre(n - 1, x)) / (x * x - 1)
+        yield x, 2 / ((1 - x * x) * slope * slope)
+
+
+def short_rule(n):
+    return "\n".join(f"vec2f({shortest(f32(x))}, {shortest(f32(w))})" for x, w in gauss_rule(n))
+
+
+def long_rule(n):
+    return "\n".join(f"RealPair({lit(x)}, {lit(w)})" for x, w in gauss_rule(n))
+
+
+def double_rule(n):
+    return "\n".join(f"({float(x)!r}, {float(w)!r})" for x, w in gauss_rule(n))
+
+
 B = [bernoulli(2 * n) for n in range(1, 12)]
 X0 = findroot(lambda x: psi(0, x), 1.46)
 ROWS = {
@@ -82,9 +118,17 @@ ROWS = {
     "psi_zero": lambda: long_lit(X0),
     "psi_taylor": lambda: table(taylor(lambda x: psi(0, x), X0, 25)[1:]),
     "euler": lambda: lit(euler),
+    "erfcx": lambda: table(chebyshev(erfcx_mapped, 27)),
+    # those of reference/erf.rs
+    "erfcx_double": lambda: "\n".join(repr(float(c)) for c in chebyshev(erfcx_mapped, 27)),
+    "gauss_node": lambda: long_rule(12),
+    "gauss_node_double": lambda: double_rule(12),
+    "gauss_node_single": lambda: short_rule(8),
     # of z in Gamma(z) - 1/z + euler, DLMF 5.7.1
     "gamma1": lambda: lit((euler**2 + pi**2 / 6) / 2),
-    "scalars": lambda: "\n".join(f"{n} {lit(v)}" for n, v in {"log 2": log(2), "pi/2": pi / 2, "pi": pi}.items()),
+    "scalars": lambda: "\n".join(f"{n} {lit(v)}" for n, v in {
+        "log 2": log(2), "pi/2": pi / 2, "pi": pi, "2/sqrt pi": 2 / sqrt(pi), "sqrt pi/2": sqrt(pi) / 2, "1/sqrt pi": 1 / sqrt(pi),
+    }.items()),
 }
 if __name__ == "__main__":
     for name in sys.argv[1:] or ROWS:

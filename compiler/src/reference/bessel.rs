@@ -103,7 +103,11 @@ fn finite_sum(n: u8, x: f64) -> f64 {
     };
     let r = 0.5 / x;
     let falling = (-2.0 * x).exp() * sum(r);
-    let rest = if n % 2 == 0 { -falling } else { falling };
+    let rest = if n.is_multiple_of(2) {
+        -falling
+    } else {
+        falling
+    };
     if r == 0.0 { 0.0 } else { (sum(-r) + rest) * r }
 }
 

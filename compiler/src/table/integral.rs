@@ -416,7 +416,7 @@ fn spherical_i_partial(g: &mut Graph, args: &[Id], value: Id, _: usize) -> Id {
     let own = g.mul(sign, value);
     let near = g.sub(sum, own);
     let mut far = finite_sum_slope(g, size, n);
-    if n % 2 == 0 {
+    if n.is_multiple_of(2) {
         far = g.mul(sign, far);
     }
     let order = f64::from(n);
@@ -433,7 +433,7 @@ fn finite_sum_slope(g: &mut Graph, a: Id, n: u8) -> Id {
         factors.push(factor * factors.last().copied().unwrap_or(1.0));
     }
     let weighted = |k: usize, c: f64| c * (k as f64 + 1.0);
-    let turned = |k: usize, c: f64| if k % 2 == 0 { c } else { -c };
+    let turned = |k: usize, c: f64| if k.is_multiple_of(2) { c } else { -c };
     let list = |f: &dyn Fn(usize, f64) -> f64| -> Vec<f64> {
         factors.iter().enumerate().map(|(k, &c)| f(k, c)).collect()
     };
@@ -450,7 +450,7 @@ fn finite_sum_slope(g: &mut Graph, a: Id, n: u8) -> Id {
     let decay = g.mul(exp, decay);
     let steady = g.mul(r, steady);
     // -2 r (r S* ∓ e^-2a (S + r S*))
-    let inside = if n % 2 == 0 {
+    let inside = if n.is_multiple_of(2) {
         g.sub(steady, decay)
     } else {
         g.add(steady, decay)

@@ -14,7 +14,7 @@ pub(super) const ROOM: u32 = 1 << 20;
 /// Words behind them, for what there is no room for.
 const SPARE: u32 = 8;
 /// Where a traced shader tells its values.
-pub(super) const TRACE: u32 = 5;
+pub(super) const TRACE: u32 = 6;
 
 /// What a buffer is to a shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -75,10 +75,29 @@ impl<'a> Builder<'a> {
                 (None, _) => {}
             }
         }
+        for (&id, end) in found.iter().zip([range.lower, range.upper]) {
+            if self.graph.as_real(id).is_some_and(f64::is_infinite) {
+                self.no_infinite_end(end);
+                return None;
+            }
+        }
         match *found.as_slice() {
             [a, b] => Some((a, b)),
             _ => None,
         }
+    }
+
+    fn no_infinite_end(&mut self, end: ExprId) {
+        let problem = Diagnostic::error(
+            "no-closed-form",
+            self.span(end),
+            "an integral to infinity is not available",
+        )
+        .with_label("infinite")
+        .with_hint(
+            "take a finite end beyond which the integrand does not count, such as 30 for exp(-t)",
+        );
+        self.report(problem);
     }
 
     fn no_condition(&mut self, body: ExprId) -> Value {
