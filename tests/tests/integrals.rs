@@ -683,3 +683,86 @@ fn bounds_are_errors() {
         );
     }
 }
+
+/// Rays at the edges of what binary32 holds: where the integral is finite in f64 it is no NaN or infinity in binary32, as
+/// long as f itself is a finite number in binary32 at both ends and in the middle.
+#[test]
+fn extreme_rays_give_numbers() {
+    const DIRECTIONS: [f64; 9] = [0.0, 1e-40, 1e-30, 1e-20, 1e-8, 1e-5, 1e-3, 1e-1, 1.0];
+    const LENGTHS: [f64; 7] = [1e-7, 1e-4, 1e-2, 1.0, 10.0, 1e3, 1e4];
+    const ORIGINS: [f64; 4] = [0.0, 1.0, 10.0, 100.0];
+    let mut rays = Vec::new();
+    for (k, length) in LENGTHS.iter().cycle().take(126).enumerate() {
+        let pick = |n: usize, sign: bool| DIRECTIONS[n % 9] * if sign { -1.0 } else { 1.0 };
+        let d = [
+            pick(k / 7, k % 2 == 0),
+            pick(k / 5 + 3, k % 3 == 0),
+            pick(k / 2 + 7, k % 5 == 0),
+        ];
+        let scale = ORIGINS[k / 3 % 4];
+        let o = [0.61 * scale, -0.23 * scale, 0.37 * scale];
+        let a = [0.0, -0.5, 2.0][k % 3];
+        let ends = if k % 11 == 0 {
+            [a + length, a]
+        } else {
+            [a, a + length]
+        };
+        let numbers = o.into_iter().chain(d).chain(ends);
+        rays.push(numbers.map(|x| f64::from(x as f32)).collect::<Vec<f64>>());
+    }
+    let at = points(rays.into_iter());
+    let (mut checked, mut wrong) = (0, String::new());
+    for class in [
+        "polynomials",
+        "waves",
+        "exponentials",
+        "mixed",
+        "pieces",
+        "algebraic",
+        "affine",
+        "bells",
+        "scenes",
+        "random",
+    ] {
+        for density in densities(class) {
+            let of = formula(&density.text);
+            let integral = field_integral(&of, Otherwise::Quadrature)
+                .unwrap()
+                .into_formula(&of);
+            let exact = Machine::Reference.run(&integral, What::Value, &at).unwrap();
+            let single = Machine::Processor(Arithmetic::Ieee32, Precision::Accurate);
+            let found = single.run(&integral, What::Value, &at).unwrap();
+            let on_ray = |point: &Point| {
+                let args = point.args.clone();
+                [0.0, 0.5, 1.0].map(|part| {
+                    let t = args[6] + part * (args[7] - args[6]);
+                    (0..3)
+                        .map(|c| args[c] + t * args[3 + c])
+                        .collect::<Vec<f64>>()
+                })
+            };
+            let places = points(at.iter().flat_map(on_ray));
+            let values = single.run(&of, What::Value, &places).unwrap();
+            for (((exact, found), point), values) in
+                exact.iter().zip(&found).zip(&at).zip(values.chunks(3))
+            {
+                if exact[0].abs() < 1e30 && values.iter().all(|v| v[0].is_finite()) {
+                    checked += 1;
+                    if !found[0].is_finite() {
+                        let _ = writeln!(
+                            wrong,
+                            "{}: {} at {:?}, not {}",
+                            density.text, found[0], point.args, exact[0]
+                        );
+                    }
+                }
+            }
+        }
+    }
+    println!("{checked} finite integrals");
+    assert!(
+        wrong.is_empty(),
+        "{} of {checked}:\n{wrong}",
+        wrong.lines().count()
+    );
+}

@@ -179,6 +179,7 @@ impl Integrator<'_> {
         let ends = x.ends.map(|end| {
             // what is below 0 by a rounding is 0; NaN stays NaN
             let rounding = scale(self.g, 1e-6, x.mid);
+            let rounding = self.g.apply(Prim::Max, &[rounding, floor]);
             let size = call(self.g, Prim::Abs, end);
             let least = self.g.apply(Prim::Max, &[size, floor]);
             let inner = if_less(self.g, size, rounding, least, end);
