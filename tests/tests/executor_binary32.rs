@@ -8,7 +8,9 @@ use pullback_compiler::stable::Rewrites;
 use pullback_compiler::{EvalModule, What, compile};
 use pullback_runtime::GpuEvaluator;
 use pullback_runtime::evaluate::Surroundings;
-use pullback_runtime::executor::{Arithmetic, Limits, Machine, Options, Program, Rows, Start};
+use pullback_runtime::executor::{
+    Arithmetic, Limits, Machine, Options, Program, Rows, Start, Watched,
+};
 use pullback_tests::accuracy::evaluators::suite_gpu;
 use pullback_tests::mutate::Random;
 

@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use pullback_compiler::lower::{Exactness, Format, Precision, Tier};
 use pullback_compiler::{What, compile};
-use pullback_runtime::executor::{Arithmetic, Component, Limits, Machine, Options, Program, Start};
+use pullback_runtime::executor::{
+    Arithmetic, Component, Limits, Machine, Options, Program, Start, Watched,
+};
 use pullback_tests::constructs::constructs;
 use pullback_tests::corpus::{gallery, read, root};
 

@@ -210,11 +210,11 @@ macro_rules! cheap_function {
         match $fun {
             Float1::Neg => $run!(|x: $f| -x),
             Float1::Abs => $run!(|x: $f| x.abs()),
-            Float1::Floor => $run!(|x: $f| x.floor()),
-            Float1::Ceil => $run!(|x: $f| x.ceil()),
-            Float1::Round => $run!(|x: $f| x.round_ties_even()),
-            Float1::Trunc => $run!(|x: $f| x.trunc()),
-            Float1::Fract => $run!(|x: $f| x - x.floor()),
+            Float1::Floor => $run!(|x: $f| Float::floor(x)),
+            Float1::Ceil => $run!(|x: $f| Float::ceil(x)),
+            Float1::Round => $run!(|x: $f| Float::round_ties_even(x)),
+            Float1::Trunc => $run!(|x: $f| Float::trunc(x)),
+            Float1::Fract => $run!(|x: $f| x - Float::floor(x)),
             Float1::Sqrt => $run!(|x: $f| x.sqrt()),
             Float1::Sign => $run!(|x: $f| float::sign(x)),
             Float1::Saturate => {

@@ -250,21 +250,23 @@ impl LibraryCall {
     fn flat_reals(&self, functions: &[fn(&[f64]) -> f64], lanes: &mut Lanes, uniform: bool) {
         let count = self.flat.len();
         for &c in kernels::chunks_of(lanes.mask, uniform) {
-            let mut columns = [Chunk::ZERO; MOST];
-            for (column, slot) in columns.iter_mut().zip(&self.flat) {
-                *column = lanes.memory[slot.chunk(c)];
+            let mut rows = [[0.0; MOST]; WIDTH];
+            for (k, slot) in self.flat.iter().enumerate() {
+                let column = &lanes.memory[slot.chunk(c)].0;
+                for (row, &word) in rows.iter_mut().zip(column) {
+                    row[k] = f64::from_bits(word);
+                }
             }
-            let row = |i: usize| columns.each_ref().map(|column| f64::from_bits(column.0[i]));
             let runs = lanes.mask.lanes[c as usize].0;
             for (f, d) in functions.iter().zip(&self.results) {
                 let out = &mut lanes.memory[d.chunk(c)];
                 if uniform {
-                    *out = Chunk::splat(f(&row(0)[..count]).to_bits());
+                    *out = Chunk::splat(f(&rows[0][..count]).to_bits());
                     continue;
                 }
-                for i in 0..WIDTH {
-                    if runs[i] != 0 {
-                        out.0[i] = f(&row(i)[..count]).to_bits();
+                for ((word, row), runs) in out.0.iter_mut().zip(&rows).zip(runs) {
+                    if runs != 0 {
+                        *word = f(&row[..count]).to_bits();
                     }
                 }
             }
