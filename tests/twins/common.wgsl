@@ -13,7 +13,7 @@ struct View {
 }
 
 @group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(4) var<storage, read_write> image: array<u32>;
+@group(0) @binding(5) var<storage, read_write> image: array<u32>;
 
 const PI: f32 = 3.141592653589793;
 const TAU: f32 = 6.283185307179586;

@@ -189,6 +189,13 @@ fn real_square_plus(x: f32, p: f32) -> f32 {
     if !(square.x < 1e38) || magnitude(p) > 1e38 {
         return square.x + p;
     }
+    // no smaller than where a square may be lost
+    if square.x < 1e-20 && magnitude(p) < 1e-20 {
+        let scaled = x * 4294967296.0;
+        let square = two_product(scaled, scaled, zero);
+        let sum = two_sum(square.x, p * 18446744073709551616.0, zero);
+        return (sum.x + opaque(sum.y + square.y, zero)) * 5.421010862427522e-20;
+    }
     let sum = two_sum(square.x, p, zero);
     return sum.x + opaque(sum.y + square.y, zero);
 }

@@ -23,7 +23,7 @@ pub struct Canvas {
     gpu: Gpu,
     size: [u32; 2],
     /// Bindings 0 to 3, and the image.
-    buffers: [wgpu::Buffer; 5],
+    buffers: [wgpu::Buffer; 6],
     readable: wgpu::Buffer,
     clock: Option<Clock>,
 }
@@ -71,6 +71,8 @@ impl Canvas {
                 filled(gpu, &bytes(params), uniform),
                 filled(gpu, &settings, uniform),
                 filled(gpu, &bytes(wide), wgpu::BufferUsages::STORAGE),
+                // a scene without a mesh
+                filled(gpu, &[0; 16], wgpu::BufferUsages::STORAGE),
                 empty(
                     gpu,
                     image,
@@ -104,7 +106,7 @@ impl Canvas {
             .global_variables
             .iter()
             .filter_map(|(_, global)| Some(global.binding?.binding))
-            .filter(|&binding| binding < 5)
+            .filter(|&binding| binding < 6)
             .collect();
         let device = self.gpu.device();
         self.gpu.guarded("compiling a pipeline", || {
@@ -113,8 +115,8 @@ impl Canvas {
                 visibility: wgpu::ShaderStages::COMPUTE,
                 ty: wgpu::BindingType::Buffer {
                     ty: match binding {
-                        3 => wgpu::BufferBindingType::Storage { read_only: true },
-                        4 => wgpu::BufferBindingType::Storage { read_only: false },
+                        3 | 4 => wgpu::BufferBindingType::Storage { read_only: true },
+                        5 => wgpu::BufferBindingType::Storage { read_only: false },
                         _ => wgpu::BufferBindingType::Uniform,
                     },
                     has_dynamic_offset: false,
@@ -233,7 +235,7 @@ impl Canvas {
     pub fn picture(&self, stage: &Stage) -> Result<Vec<u8>, Error> {
         let mut encoder = self.gpu.guarded("recording", || self.record(stage, 1))?;
         let bytes = self.readable.size();
-        encoder.copy_buffer_to_buffer(&self.buffers[4], 0, &self.readable, 0, bytes);
+        encoder.copy_buffer_to_buffer(&self.buffers[5], 0, &self.readable, 0, bytes);
         self.gpu.queue().submit([encoder.finish()]);
         read(&self.gpu, &self.readable)
     }

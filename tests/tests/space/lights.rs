@@ -1,7 +1,7 @@
 //! Where light comes from, how strong it is, and what colours it.
 
 use pullback_compiler::lower::Precision;
-use pullback_runtime::executor::{Arithmetic, Event, Painter, Shown, SiteKind};
+use pullback_runtime::executor::{Arithmetic, Event, Painter, Shown, SiteKind, Watched};
 use pullback_runtime::{Frame, Pipeline, Size, View};
 
 use crate::camera::{Vec3, dot};
@@ -32,11 +32,11 @@ fn light(settings: &str) -> Vec3 {
         time: 0.0,
         pipeline: Pipeline::Compute,
     };
-    let painter = Painter::traced(&scene, Arithmetic::Ieee32).expect("a painter");
+    let painter = Painter::watched(&scene, Arithmetic::Ieee32, Watched::Everything).expect("a painter");
     let mut found = [f64::NAN; 3];
     let mut observer = |_: usize, event: &Event| {
         if event.site.function_name == "light_toward" && event.site.kind == SiteKind::Leave {
-            for (slot, value) in found.iter_mut().zip(&event.values) {
+            for (slot, value) in found.iter_mut().zip(event.values) {
                 if let Shown::Real(x) = value {
                     *slot = *x;
                 }

@@ -1,7 +1,7 @@
 //! Cameras: where known points are seen, which rays are parallel, and how fast a value changes from pixel to pixel.
 
 use pullback_compiler::lower::Precision;
-use pullback_runtime::executor::{Arithmetic, Event, Painter, Shown, SiteKind};
+use pullback_runtime::executor::{Arithmetic, Event, Painter, Shown, SiteKind, Watched};
 use pullback_runtime::{Frame, Pipeline, Size, View};
 
 use crate::camera::{Ray, Vec3, add, dot};
@@ -140,7 +140,7 @@ fn seen(source: &str, pixels: &[[f64; 2]]) -> Vec<Seen> {
         time: 0.0,
         pipeline: Pipeline::Compute,
     };
-    let painter = Painter::traced(&scene, Arithmetic::Ieee32).expect("a painter");
+    let painter = Painter::watched(&scene, Arithmetic::Ieee32, Watched::Everything).expect("a painter");
     let mut found = vec![Seen::default(); pixels.len()];
     let mut observer = |lane: usize, event: &Event| observe(&mut found, lane, event);
     painter
