@@ -150,6 +150,7 @@ fn build(exprs: &mut Exprs, plan: &Plan) -> ExprId {
             until: until.as_ref().map(|plan| build(exprs, plan)),
         },
         Plan::Integral(body, text, ends) => Expr::Integral {
+            method: pullback_grammar::ast::Method::Closed,
             body: build(exprs, body),
             range: range(exprs, text, &ends.0, &ends.1),
         },

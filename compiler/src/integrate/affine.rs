@@ -66,8 +66,8 @@ impl Integrator<'_> {
         ))
     }
 
-    /// L X^p φ((p + 1) λ)/φ(λ) with X the end that is greater in size, λ = log1p(-2|w|/|X|) the logarithm of the ratio of
-    /// both ends and φ(y) = (e^y - 1)/y: one formula for every exponent, -1 included.
+    /// L X^p φ((p + 1) λ)/φ(λ) with X the end that is greater in size, λ = log1p(-2|w|/|X|) the logarithm of the
+    /// ratio of both ends and φ(y) = (e^y - 1)/y: one formula for every exponent, -1 included.
     fn power_of_affine(&mut self, x: Affine, exponent: Id) -> Id {
         let w = mul(self.g, x.slope, self.path.half);
         let [w, mid] = [w, x.mid].map(|v| call(self.g, Prim::Abs, v));
@@ -99,8 +99,9 @@ impl Integrator<'_> {
         mul(self.g, length, mean)
     }
 
-    /// The mean of x^p where x changes its sign: of a constant exponent, which is negative or no whole number, infinite for
-    /// even p, NaN for others; else (x₁^p x₁ - x₀^p x₀)/(2 w (p + 1)), where nothing cancels but what has two signs.
+    /// The mean of x^p where x changes its sign: of a constant exponent, which is negative or no whole number,
+    /// infinite for even p, NaN for others; else (x₁^p x₁ - x₀^p x₀)/(2 w (p + 1)), where nothing cancels but what
+    /// has two signs.
     fn through_zero(&mut self, x: Affine, exponent: Id) -> Id {
         if let Some(p) = self.g.as_real(exponent) {
             let is_even = p.rem_euclid(2.0) == 0.0;
@@ -267,8 +268,8 @@ impl Integrator<'_> {
         mul(self.g, length, value)
     }
 
-    /// ∫ of tanh, atan, asinh, erf: the difference of their antiderivatives where the interval is at least a half long, or
-    /// half as long as the singularities are far; nodes of the function elsewhere.
+    /// ∫ of tanh, atan, asinh, erf: the difference of their antiderivatives where the interval is at least a half
+    /// long, or half as long as the singularities are far; nodes of the function elsewhere.
     fn sigmoidal(&mut self, prim: Prim, of: Id) -> Id {
         let x = self.affine(of);
         let ends = x.ends.map(|end| self.antiderivative(prim, end));
@@ -322,8 +323,8 @@ impl Integrator<'_> {
         }
     }
 
-    /// ∫ 1/(1 + e^-x) = L (log(1 + e^x₁) - log(1 + e^x₀))/(x₁ - x₀), for close ends by the logistic function of the lower one:
-    /// L σ φ(δ) log1p(σ expm1 δ)/(σ expm1 δ) with δ = 2|w|.
+    /// ∫ 1/(1 + e^-x) = L (log(1 + e^x₁) - log(1 + e^x₀))/(x₁ - x₀), for close ends by the logistic function of the
+    /// lower one: L σ φ(δ) log1p(σ expm1 δ)/(σ expm1 δ) with δ = 2|w|.
     fn logistic(&mut self, of: Id) -> Id {
         let x = self.affine(of);
         let w = mul(self.g, x.slope, self.path.half);

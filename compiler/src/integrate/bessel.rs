@@ -142,8 +142,8 @@ impl Integrator<'_> {
         }
     }
 
-    /// cₙ = (n + ½) Σ wⱼ Pₙ(xⱼ) p(h xⱼ), exact with one node more than the degree; sums of both sides of the middle for even
-    /// orders, differences for odd ones.
+    /// cₙ = (n + ½) Σ wⱼ Pₙ(xⱼ) p(h xⱼ), exact with one node more than the degree; sums of both sides of the middle
+    /// for even orders, differences for odd ones.
     fn legendre_coefficients(&mut self, product: Id, degree: u32) -> Vec<Id> {
         let leaves = self.path.coordinates.iter().map(|c| c.leaf);
         let body = Body::new(self.g, &[product], leaves);

@@ -176,8 +176,8 @@ impl<'g> Integrator<'g> {
         Ok(())
     }
 
-    /// For u + k √q with u of degree 0 or 1: the polynomial k² q - u². For k √q - m √r: k² q - m² r. They are 0 wherever
-    /// the expression is.
+    /// For u + k √q with u of degree 0 or 1: the polynomial k² q - u². For k √q - m √r: k² q - m² r. They are 0
+    /// wherever the expression is.
     fn without_roots(&mut self, of: Id) -> Option<Id> {
         let terms = self.expand(of).ok()?;
         let mut roots = Vec::new();

@@ -1,7 +1,5 @@
 //! Exponentials and waves of what changes evenly, their products, and those with polynomials.
 
-use std::collections::BTreeMap;
-
 use smallvec::SmallVec;
 
 use super::arithmetic::{add, call, if_less, mul, scale, sub, total};
@@ -10,22 +8,15 @@ use super::path::Body;
 use super::quadratic::Affine;
 use super::rule::Rule;
 use super::term::{Factor, Term};
+use super::waves::{MAX_WAVES, product_to_sum};
 use super::{Integrator, Problem, Reason};
 use crate::ir::{Id, Prim};
 
-/// Greatest number of waves that a product becomes the sum of.
-pub const MAX_WAVES: usize = 512;
 /// Greatest degree of a polynomial beside an exponential or a wave.
 pub const MAX_DEGREE_BESIDE: u32 = 16;
 
 /// What the branches of a rule that uses Gauss-Legendre nodes on short intervals are right to.
 pub(super) const NEAR: f64 = 1e-12;
-
-/// A whole multiple of each phase.
-type Phases = SmallVec<[(Id, i32); 4]>;
-
-/// Σ of waves of sums of phases; the key is the wave and its phases.
-type Waves = BTreeMap<(bool, Vec<(Id, i32)>), f64>;
 
 /// Values of a polynomial and its derivatives.
 pub(super) type Values = SmallVec<[Id; 4]>;
@@ -42,10 +33,10 @@ pub(super) struct Wave {
 impl Integrator<'_> {
     /// ∫ of an exponential, waves and a polynomial.
     ///
-    /// One exponential: 2h e^(α + |βh|) φ(-2|βh|) with φ(x) = (eˣ - 1)/x. One wave: 2h sinc(δh) sin(γ). Products of waves
-    /// become sums (NIST DLMF 4.21(ii), 4.35(ii)); where all phases together change by no more than 1 each, nodes
-    /// of Gauss and Legendre take the integrand as it is, so that nothing cancels near a common zero. With a polynomial
-    /// each of these is integrated by [`Self::polynomial_by_wave`].
+    /// One exponential: 2h e^(α + |βh|) φ(-2|βh|) with φ(x) = (eˣ - 1)/x. One wave: 2h sinc(δh) sin(γ). Products of
+    /// waves become sums (NIST DLMF 4.21(ii), 4.35(ii)); where all phases together change by no more than 1 each,
+    /// nodes of Gauss and Legendre take the integrand as it is, so that nothing cancels near a common zero. With a
+    /// polynomial each of these is integrated by [`Self::polynomial_by_wave`].
     pub(super) fn exponential(&mut self, term: &Term) -> Result<(Id, Rule), Problem> {
         let parts = Parts::of(term);
         let degree = self.polynomial_degree(&parts.polynomials);
@@ -412,54 +403,4 @@ impl Parts {
         }
         out
     }
-}
-
-/// cos A cos u = (cos(A + u) + cos(A - u))/2 and its kin: a product of waves as a sum of waves of sums. `round`: sin and
-/// cos, else sinh and cosh. The empty product is cos 0. `None` of more than [`MAX_WAVES`].
-fn product_to_sum(waves: &[(Prim, Id)], round: bool) -> Option<Waves> {
-    let mut sum: Waves = BTreeMap::new();
-    sum.insert((false, Vec::new()), 1.0);
-    for &(prim, phase) in waves {
-        let odd = matches!(prim, Prim::Sin | Prim::Sinh);
-        let mut next: Waves = BTreeMap::new();
-        for ((is_odd, phases), v) in &sum {
-            // the wave of the sum of phases, then that of the difference
-            let (kind, plus, minus) = match (is_odd, odd) {
-                (false, false) => (false, 0.5, 0.5),
-                (false, true) => (true, 0.5, -0.5),
-                (true, false) => (true, 0.5, 0.5),
-                (true, true) if round => (false, -0.5, 0.5),
-                (true, true) => (false, 0.5, -0.5),
-            };
-            for (n, weight) in [(1, plus), (-1, minus)] {
-                let (phases, turned) = canonical(phases, phase, n);
-                let sign = if turned && kind { -1.0 } else { 1.0 };
-                *next.entry((kind, phases)).or_insert(0.0) += sign * weight * v;
-            }
-        }
-        next.retain(|_, v| *v != 0.0);
-        if next.len() > MAX_WAVES {
-            return None;
-        }
-        sum = next;
-    }
-    Some(sum)
-}
-
-/// Adds n times a phase; the first multiple is made positive, and whether that turned the whole is told.
-fn canonical(phases: &[(Id, i32)], phase: Id, n: i32) -> (Vec<(Id, i32)>, bool) {
-    let mut out: Phases = SmallVec::from_slice(phases);
-    match out.iter_mut().find(|p| p.0 == phase) {
-        Some(known) => known.1 += n,
-        None => out.push((phase, n)),
-    }
-    out.retain(|p| p.1 != 0);
-    out.sort_unstable();
-    let turned = out.first().is_some_and(|p| p.1 < 0);
-    if turned {
-        for p in &mut out {
-            p.1 = -p.1;
-        }
-    }
-    (out.to_vec(), turned)
 }

@@ -132,9 +132,9 @@ impl Integrator<'_> {
         self.g.add(slope, curve)
     }
 
-    /// Both sides of the centre by repeated integration by parts from their ends,
-    /// ∫ₓ^∞ p e^(-u²) du = Σ p⁽ⁿ⁾(x) (√π/2) iⁿerfc x (NIST DLMF 7.18), and nodes of the integrand where the exponent changes
-    /// by less than the degree and 2.
+    /// Both sides of the centre by repeated integration by parts from their ends, ∫ₓ^∞ p e^(-u²) du = Σ p⁽ⁿ⁾(x)
+    /// (√π/2) iⁿerfc x (NIST DLMF 7.18), and nodes of the integrand where the exponent changes by less than the
+    /// degree and 2.
     fn moments_of_gaussian(
         &mut self,
         q: &Quadratic,

@@ -1,7 +1,7 @@
 //! Products that were written out: on short intervals they are taken as they are written.
 //!
-//! (1 - |p|)² is 1 - 2 |p| + |p|² to the rules, which cancels where |p| is near 1. Where every factor changes little along
-//! the interval, nodes of Gauss and Legendre take the product as it is.
+//! (1 - |p|)² is 1 - 2 |p| + |p|² to the rules, which cancels where |p| is near 1. Where every factor changes little
+//! along the interval, nodes of Gauss and Legendre take the product as it is.
 
 use rustc_hash::FxHashMap;
 

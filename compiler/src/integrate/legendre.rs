@@ -53,9 +53,9 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, as_f64(n) * (last - x * value) / (1.0 - x * x))
 }
 
-/// The smallest number of nodes with which the rule is right to `tolerance` for e^(λ s) p(s) on [-1, 1] with |λ| ≤ `size`
-/// and p of this degree, relative to the greatest value of e^|λ s| |p|: exact for the polynomial, and the remainder
-/// of the exponential by its derivative of order 2n.
+/// The smallest number of nodes with which the rule is right to `tolerance` for e^(λ s) p(s) on [-1, 1] with |λ| ≤
+/// `size` and p of this degree, relative to the greatest value of e^|λ s| |p|: exact for the polynomial, and the
+/// remainder of the exponential by its derivative of order 2n.
 ///
 /// Error term: NIST DLMF 3.5.19.
 #[must_use]

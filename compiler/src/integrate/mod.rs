@@ -2,8 +2,8 @@
 //!
 //! ∫ₐᵇ f(o + t d) dt is taken as a definite integral: the line is centred at the middle of the interval, so that the
 //! result vanishes with its length and nothing is the difference of two antiderivatives where that cancels. The
-//! integrand becomes a sum of products; each product is integrated by the rule of its class ([`Rule`]). What is piecewise
-//! is cut where its conditions change. Nothing divides by a component of the direction.
+//! integrand becomes a sum of products; each product is integrated by the rule of its class ([`Rule`]). What is
+//! piecewise is cut where its conditions change. Nothing divides by a component of the direction.
 
 mod affine;
 mod algebraic;
@@ -11,6 +11,7 @@ mod arithmetic;
 mod bessel;
 mod breaks;
 mod class;
+mod equiangular;
 mod expand;
 mod explain;
 mod exponential;
@@ -25,19 +26,21 @@ mod quadrature;
 mod rule;
 mod series;
 mod term;
+mod waves;
 
 pub use algebraic::MAX_DEGREE_BESIDE_POWER;
 pub use breaks::MAX_BREAKS;
 pub use class::MAX_DEGREE;
 pub use expand::{MAX_FACTORS, MAX_TERMS};
 pub use explain::{Explanation, Told, explain};
-pub use exponential::{MAX_DEGREE_BESIDE, MAX_WAVES};
+pub use exponential::MAX_DEGREE_BESIDE;
 pub use field::{FieldIntegral, INPUTS, field_integral};
 pub use gaussian::MAX_DEGREE_BESIDE_GAUSSIAN;
 pub use legendre::{Node as QuadratureNode, gauss_legendre};
 pub use path::{Coordinate, Path};
 pub use problem::{Problem, Reason};
 pub use rule::{RULES, Record, Rule};
+pub use waves::MAX_WAVES;
 
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;

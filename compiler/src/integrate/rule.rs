@@ -84,15 +84,16 @@ pub static RULES: [Record; 22] = [
     Record {
         rule: Rule::ProductOfWaves,
         name: "product of waves",
-        equation: "∫ sin u cos v = ½ ∫ (sin(u + v) + sin(u - v)) and its kin; nodes of the product on short intervals",
+        equation: "∫ sin u cos v = ½ ∫ (sin(u + v) + sin(u - v)) and its kin; nodes of the product on short \
+                   intervals",
         bound: "up to 16 factors; the phases that change by less than 1 each are taken by nodes, right to 1e-12",
         source: "NIST DLMF 4.21(ii), 4.35(ii)",
     },
     Record {
         rule: Rule::PolynomialByWave,
         name: "polynomial by exponential or wave",
-        equation: "∫ p e^(iδs) = L Σ cₙ iⁿ jₙ(δh), p(h x) = Σ cₙ Pₙ(x), with iₙ of an exponential where |βh| < degree + 2; \
-                   else, and beside both, [e^(λs) Σ (-1)ᵏ p⁽ᵏ⁾/λᵏ⁺¹] at both ends",
+        equation: "∫ p e^(iδs) = L Σ cₙ iⁿ jₙ(δh), p(h x) = Σ cₙ Pₙ(x); beside an exponential \
+                   [e^(λs) Σ (-1)ᵏ p⁽ᵏ⁾/λᵏ⁺¹] at both ends, and nodes of the product where |λh| < degree + 2",
         bound: "degree up to 16; the nodes are right to 1e-12",
         source: "NIST DLMF 4.10(i), 4.26(ii)",
     },
@@ -106,14 +107,16 @@ pub static RULES: [Record; 22] = [
     Record {
         rule: Rule::Reciprocal,
         name: "reciprocal of a quadratic",
-        equation: "∫ 1/q = L atan2(√(DL²), E)/√(DL²), E = q(m) - a h², D = |d|² |p(m) - c|² - (d·(p(m) - c))² as |d × (p(m) - c)|²",
+        equation: "∫ 1/q = L atan2(√(DL²), E)/√(DL²), E = q(m) - a h², D = |d|² |p(m) - c|² - (d·(p(m) - c))² \
+                   as |d × (p(m) - c)|²",
         bound: "always; one formula through D = 0",
         source: "NIST DLMF 4.23, 4.40.5; Sun et al., A practical analytic single scattering model, SIGGRAPH 2005",
     },
     Record {
         rule: Rule::ReciprocalRoot,
         name: "reciprocal root of a quadratic",
-        equation: "∫ 1/√q = 2L atan2(√-a L, S)/(√-a L), S = r₀ + r₁; (2/√a) log((S + √a L)/√(2(r₀r₁ + E))) where E < 0",
+        equation: "∫ 1/√q = 2L atan2(√-a L, S)/(√-a L), S = r₀ + r₁; (2/√a) log((S + √a L)/√(2(r₀r₁ + E))) \
+                   where E < 0",
         bound: "always; infinite where q has a zero in the interval",
         source: "NIST DLMF 4.37, 4.40",
     },
@@ -141,7 +144,8 @@ pub static RULES: [Record; 22] = [
     Record {
         rule: Rule::PolynomialByPower,
         name: "polynomial by power of a quadratic",
-        equation: "Σ p⁽ᵏ⁾(s₀)/k! ∫ σᵏ q^r, (2r + 1 + k) Fₖ = [σᵏ⁻¹ q^(r+1)]/a - (k - 1) (D/a²) Fₖ₋₂; nodes of the product where |a| h² < q(m)/4",
+        equation: "Σ p⁽ᵏ⁾(s₀)/k! ∫ σᵏ q^r, (2r + 1 + k) Fₖ = [σᵏ⁻¹ q^(r+1)]/a - (k - 1) (D/a²) Fₖ₋₂; nodes of \
+                   the product where |a| h² < q(m)/4",
         bound: "exponents -1, -1/2, 1/2, 3/2 …, degree up to 12",
         source: "Gradshteyn and Ryzhik 2.263",
     },
@@ -176,14 +180,16 @@ pub static RULES: [Record; 22] = [
     Record {
         rule: Rule::Sigmoidal,
         name: "tanh, atan, asinh, erf",
-        equation: "the difference of log cosh x, x atan x - log √(1 + x²), x asinh x - √(1 + x²), x erf x + e^(-x²)/√π; nodes on short intervals",
+        equation: "the difference of log cosh x, x atan x - log √(1 + x²), x asinh x - √(1 + x²), x erf x + \
+                   e^(-x²)/√π; nodes on short intervals",
         bound: "always",
         source: "NIST DLMF 4.40.3, 4.26.14, 4.40.11, 7.7",
     },
     Record {
         rule: Rule::Logistic,
         name: "logistic function",
-        equation: "∫ 1/(1 + e^-x) = L (log(1 + e^x₁) - log(1 + e^x₀))/(x₁ - x₀); L σ φ(δ) log1p(σ expm1 δ)/(σ expm1 δ) for δ = x₁ - x₀ below 1",
+        equation: "∫ 1/(1 + e^-x) = L (log(1 + e^x₁) - log(1 + e^x₀))/(x₁ - x₀); L σ φ(δ) log1p(σ expm1 δ)/(σ \
+                   expm1 δ) for δ = x₁ - x₀ below 1",
         bound: "always",
         source: "elementary",
     },
@@ -197,7 +203,8 @@ pub static RULES: [Record; 22] = [
     Record {
         rule: Rule::PolynomialByGaussian,
         name: "polynomial by Gaussian",
-        equation: "∫ₓ^∞ p e^(-u²) du = e^(-x²) Σ p⁽ⁿ⁾ (√π/2) e^(x²) iⁿerfc x from the ends and the centre; nodes where the exponent changes by less than degree + 2",
+        equation: "∫ₓ^∞ p e^(-u²) du = e^(-x²) Σ p⁽ⁿ⁾ (√π/2) e^(x²) iⁿerfc x from the ends and the centre; \
+                   nodes where the exponent changes by less than degree + 2",
         bound: "degree up to 7",
         source: "NIST DLMF 7.18",
     },

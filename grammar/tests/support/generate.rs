@@ -6,7 +6,7 @@
 use pullback_grammar::Span;
 use pullback_grammar::ast::{
     BinaryOp, CompareOp, Constant, Expr, ExprId, File, Formal, Formula, Function, Item, Local,
-    Name, Param, Range, SeriesKind, Setting, Show, UnaryOp,
+    Method, Name, Param, Range, SeriesKind, Setting, Show, UnaryOp,
 };
 use pullback_grammar::token::tokenize;
 
@@ -34,8 +34,8 @@ const FUNCTIONS: [&str; 16] = [
     "integral",
     "h₁",
 ];
-const OPERATORS: [&str; 5] = ["grad", "diff", "laplacian", "mean_curvature", "quadrature"];
-const FORMS: [&str; 4] = ["sum", "product", "iterate", "integral"];
+const OPERATORS: [&str; 4] = ["grad", "diff", "laplacian", "mean_curvature"];
+const FORMS: [&str; 5] = ["sum", "product", "iterate", "integral", "quadrature"];
 
 /// SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014).
 pub struct Random(u64);
@@ -444,13 +444,22 @@ impl Maker<'_> {
     }
 
     fn integral(&mut self, size: usize) -> Expr {
-        if !self.is_own("integral") {
+        let method = if self.random.once_in(3) {
+            Method::Quadrature
+        } else {
+            Method::Closed
+        };
+        if !self.is_own(method.word()) {
             return self.binary(size);
         }
         let text = self.bindable();
         let range = self.range(text, size / 4);
         let body = self.within(&[text], |maker| maker.expr(size / 2));
-        Expr::Integral { body, range }
+        Expr::Integral {
+            method,
+            body,
+            range,
+        }
     }
 }
 

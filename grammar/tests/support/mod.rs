@@ -5,7 +5,7 @@
 pub mod fixture;
 pub mod generate;
 
-use pullback_grammar::ast::{Expr, ExprId, File, Item, Name, Range};
+use pullback_grammar::ast::{Expr, ExprId, File, Item, Method, Name, Range};
 use pullback_grammar::token::{TokenKind, tokenize};
 use pullback_grammar::{Parsed, Span, parse};
 
@@ -194,7 +194,18 @@ pub fn show(file: &File, id: ExprId) -> String {
             let until = until.map_or(String::new(), |c| format!(" [until {}]", show(c)));
             format!("(Iterate {}{states}{steps}{until})", show(*count))
         }
-        Expr::Integral { body, range: r } => format!("(Integral {} {})", range(r), show(*body)),
+        Expr::Integral {
+            method,
+            body,
+            range: r,
+        } => {
+            let word = if *method == Method::Closed {
+                "Integral"
+            } else {
+                "Quadrature"
+            };
+            format!("({word} {} {})", range(r), show(*body))
+        }
     }
 }
 

@@ -1,0 +1,106 @@
+//! Negative powers of quadratics, alone and beside polynomials, over the angle at their zero.
+
+use super::Integrator;
+use super::algebraic::Bowl;
+use super::arithmetic::{add, call, mul, scale, square, sub};
+use super::exponential::NEAR;
+use super::legendre::nodes_for_exponential;
+use crate::ir::{Id, Prim};
+
+/// Where a quadratic is least in an interval: t, its value, and half its slope.
+struct Least {
+    place: Id,
+    value: Id,
+    slope: Id,
+}
+
+impl Integrator<'_> {
+    /// ∫ p q^(n/2) dt = ∫ p q^(n/2 + 1) du by u = ∫ dt/q from the place of the least q in the interval, which is the
+    /// angle under which the way is seen from the zero of q, over √D. There t - t₀ = c u sinc(√D u)/B and q = c/B²
+    /// with B = cos(√D u) - b u sinc(√D u), c and b the value and half the slope of q at that place: what remains is
+    /// a polynomial in sin and cos of degree k = -n - 2, for which nodes over the angle are enough.
+    ///
+    /// Kulla and Fajardo, "Importance sampling techniques for path tracing in participating media", 2012, for the map.
+    pub(super) fn equiangular(&mut self, bowl: &Bowl, polynomials: &[Id], k: u32) -> Id {
+        let (least, ends) = self.least(bowl);
+        let (sum, difference) = (self.g.add(ends[0], ends[1]), self.g.sub(ends[1], ends[0]));
+        let (middle, reach) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, difference));
+        let root = call(self.g, Prim::Sqrt, bowl.q.discriminant);
+        let one = self.g.real(1.0);
+        let product = polynomials
+            .iter()
+            .fold(one, |product, &p| mul(self.g, product, p));
+        let exponent = i32::try_from(k).unwrap_or(0);
+        let count = nodes_for_exponential(std::f64::consts::FRAC_PI_2 * f64::from(k), 0, NEAR);
+        let mut sum = self.g.real(0.0);
+        for node in super::gauss_legendre(count) {
+            let sides: &[f64] = if node.place == 0.0 {
+                &[1.0]
+            } else {
+                &[1.0, -1.0]
+            };
+            for &side in sides {
+                let offset = scale(self.g, side * node.place, reach);
+                let u = add(self.g, middle, offset);
+                let turn = mul(self.g, root, u);
+                let (sine, cosine) = (
+                    call(self.g, Prim::Sinc, turn),
+                    call(self.g, Prim::Cos, turn),
+                );
+                let step = mul(self.g, u, sine);
+                let down = mul(self.g, least.slope, step);
+                let base = sub(self.g, cosine, down);
+                let mut value = self.g.apply(Prim::PowInt(exponent), &[base]);
+                if product != one {
+                    let top = mul(self.g, least.value, step);
+                    let offset = self.g.div(top, base);
+                    let t = self.g.add(least.place, offset);
+                    let factor = self.at_place(&[product], t)[0];
+                    value = mul(self.g, value, factor);
+                }
+                let value = scale(self.g, node.weight, value);
+                sum = add(self.g, sum, value);
+            }
+        }
+        let size = self.half_power(least.value, exponent);
+        let mean = self.g.div(sum, size);
+        mul(self.g, reach, mean)
+    }
+
+    /// The place of the least q in the interval, and ∫ dt/q from there to both ends.
+    fn least(&mut self, bowl: &Bowl) -> (Least, [Id; 2]) {
+        let q = bowl.q;
+        let zero = self.g.real(0.0);
+        let product = self.g.mul(q.slopes[0], q.slopes[1]);
+        let inside = self.g.apply(Prim::Less, &[product, zero]);
+        let first = self.g.apply(Prim::Less, &[q.ends[0], q.ends[1]]);
+        let choose = |this: &mut Self, foot: Id, ends: [Id; 2]| {
+            let end = this.g.apply(Prim::Select, &[first, ends[0], ends[1]]);
+            this.g.apply(Prim::Select, &[inside, foot, end])
+        };
+        let depth = self.g.div(q.discriminant, q.a);
+        let value = choose(self, depth, q.ends);
+        let slope = choose(self, zero, q.slopes);
+        let place = choose(self, q.foot, self.path.ends);
+        let whole = self.reciprocal(bowl);
+        let back = self.g.neg(whole);
+        let offsets = self.offsets(bowl);
+        let beside = [[zero, back], [whole, zero]];
+        let angles = [0, 1].map(|k| {
+            let s = offsets[k];
+            let square_s = square(self.g, s);
+            let p = mul(self.g, q.discriminant, square_s);
+            let quotient = self.g.apply(Prim::Atan2Quotient, &[p, depth]);
+            let around = mul(self.g, s, quotient);
+            choose(self, around, beside[k])
+        });
+        (
+            Least {
+                place,
+                value,
+                slope,
+            },
+            angles,
+        )
+    }
+}
