@@ -277,11 +277,6 @@ mod tests {
         assert_eq!(smooth_step(0.0f32, 2.0, 5.0), 1.0);
         assert_eq!(clamp(5.0, 0.0, 1.0), 1.0);
     }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
 
     /// The bits of what the standard library gives, of zeros too.
     #[test]
