@@ -32,7 +32,8 @@ fn light(settings: &str) -> Vec3 {
         time: 0.0,
         pipeline: Pipeline::Compute,
     };
-    let painter = Painter::watched(&scene, Arithmetic::Ieee32, Watched::Everything).expect("a painter");
+    let painter =
+        Painter::watched(&scene, Arithmetic::Ieee32, Watched::Everything).expect("a painter");
     let mut found = [f64::NAN; 3];
     let mut observer = |_: usize, event: &Event| {
         if event.site.function_name == "light_toward" && event.site.kind == SiteKind::Leave {

@@ -140,7 +140,8 @@ fn seen(source: &str, pixels: &[[f64; 2]]) -> Vec<Seen> {
         time: 0.0,
         pipeline: Pipeline::Compute,
     };
-    let painter = Painter::watched(&scene, Arithmetic::Ieee32, Watched::Everything).expect("a painter");
+    let painter =
+        Painter::watched(&scene, Arithmetic::Ieee32, Watched::Everything).expect("a painter");
     let mut found = vec![Seen::default(); pixels.len()];
     let mut observer = |lane: usize, event: &Event| observe(&mut found, lane, event);
     painter
