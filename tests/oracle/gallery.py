@@ -547,7 +547,22 @@ def resonance(x, y, z):
     return first + cos(3 * x) * cos(y) * cos(2 * z) - cos(x) * cos(2 * y) * cos(3 * z)
 
 
+def sparks(x, y, z):
+    inside = 1 - x**2 - 9 * y**2 - z**2
+    return greatest(0 * inside, inside) ** 3
+
+
+def spotlight(x, y, z):
+    t = (z + mp.mpf("1.5")) / 3
+    return least(greatest(0 * t, t), 0 * t + 1) ** 2
+
+
 SPACE = {
+    "hologram": (lambda x, y, z: mp.mpf("0.5") + mp.mpf("0.5") * sin(9 * z), 1.5, [(0, 0, 0.17453292), (0, 0, 0.52359877), (0, 0, 0)]),
+    "mist": (lambda x, y, z: exp(-mp.mpf("2.5") * (z + 1)), 3, [(0, 0, -1), (0, 0, 1)]),
+    "rainbow-tunnel": (lambda x, y, z: mp.mpf("0.5") + mp.mpf("0.5") * sin(2 * PI * z), 2.5, [(0, 0, 0.25), (0, 0, 0.75), (0, 0, 0)]),
+    "sparks": (sparks, 1, [(1, 0, 0), (0, 0.33333334, 0), (0.6, 0.2, 0.5291503), (0, 0, 0)]),
+    "spotlight": (spotlight, 1.5, [(0, 0, -1.5), (0, 0, 1.5), (0, 0, 0)]),
     "ember": (ember, 2, [(0.35, 0, 0), (0.55, 0.35, 0.4), (0, 0, 0), (0.25, 0.5, 0.75)]),
     "orbit-trap": (orbit_trap, 2, [(0.3, 0, 0), (0.6, 0.4, 0.35), (0, 0, 0), (0.25, 0.5, 0.75)]),
     "multipole": (multipole, 2, [(1.25, 0.125, 0), (-0.5, 1, 0.25), (-0.5, -0.75, 0), (0, 0, 0)]),
