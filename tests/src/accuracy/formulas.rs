@@ -48,7 +48,7 @@ macro_rules! gallery {
     };
 }
 
-const GALLERY: [(&str, &str, &str); 61] = gallery![
+const GALLERY: [(&str, &str, &str); 66] = gallery![
     "charges",
     "confocal",
     "doyle-mcmullen",
