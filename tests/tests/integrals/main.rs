@@ -1,6 +1,7 @@
 //! Integrals along rays against mpmath at 60 digits: tests/oracle/integrals_rays.py.
 
 mod language;
+mod ridge;
 mod textbook;
 
 use std::fmt::Write as _;
