@@ -356,7 +356,7 @@ impl<'g> Integrator<'g> {
     }
 
     /// The expression with every condition decided in the middle of the path.
-    fn decided(&mut self, root: Id) -> Id {
+    pub(super) fn decided(&mut self, root: Id) -> Id {
         let mut map: FxHashMap<Id, Id> = FxHashMap::default();
         for id in cone(self.g, &[root]) {
             let node = self.g.node(id).clone();

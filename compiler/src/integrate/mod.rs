@@ -23,6 +23,7 @@ mod path;
 mod problem;
 mod quadratic;
 mod quadrature;
+mod ridge;
 mod rule;
 mod series;
 mod term;
@@ -157,7 +158,10 @@ impl<'g> Integrator<'g> {
             Ok(cuts) if cuts.is_empty() => self.smooth(root),
             Ok(cuts) => {
                 self.pieces = true;
-                self.piecewise(root, &cuts, Self::smooth)
+                match self.ridge(root) {
+                    Some(value) => Ok(value),
+                    None => self.piecewise(root, &cuts, Self::smooth),
+                }
             }
             Err(problem) if self.otherwise == Otherwise::Quadrature => {
                 let value = self.composite(root);
@@ -403,6 +407,21 @@ impl<'g> Integrator<'g> {
             let length = self.length_of_path();
             return mul(self.g, length, root);
         }
+        let sum = self.weighted_sum(root, count);
+        mul(self.g, self.path.half, sum)
+    }
+
+    /// The mean along the path by Gauss-Legendre nodes of the expression itself: Σ wⱼ f(h xⱼ)/2.
+    fn mean(&mut self, root: Id, count: usize) -> Id {
+        if !self.moves(root) {
+            return root;
+        }
+        let sum = self.weighted_sum(root, count);
+        scale(self.g, 0.5, sum)
+    }
+
+    /// Σ wⱼ f(h xⱼ), the weights of which are 2 together.
+    fn weighted_sum(&mut self, root: Id, count: usize) -> Id {
         let leaves = self.path.coordinates.iter().map(|c| c.leaf);
         let body = Body::new(self.g, &[root], leaves);
         let mut sum = self.g.real(0.0);
@@ -423,6 +442,6 @@ impl<'g> Integrator<'g> {
             let part = scale(self.g, node.weight, value);
             sum = add(self.g, sum, part);
         }
-        mul(self.g, self.path.half, sum)
+        sum
     }
 }

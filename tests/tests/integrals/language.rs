@@ -8,39 +8,41 @@ use pullback_tests::accuracy::evaluators::{Machine, Point};
 use super::formula;
 
 /// Integrals that stand in formulas, at x = 2, y = 1; by mpmath's quad.
+pub const OF_THE_LANGUAGE: [(&str, f64); 11] = [
+    (
+        "integral(exp(-t) sin(2 t)^2, t, 0, x)",
+        0.386_589_075_958_063,
+    ),
+    (
+        "integral(max(0, 1 - |t - y|)^2 exp(-t^2), t, -1, x)",
+        0.264_626_483_727_039,
+    ),
+    ("quadrature(t + sin(t^2), t, 0, x)", 2.804_776_489_343_756),
+    ("integral(sqrt(1 + t^2), t, x, -y)", -4.105_679_289_785_514),
+    (
+        "integral((cos(t), t^3), t, 0, x).x",
+        0.909_297_426_825_681_7,
+    ),
+    ("integral((cos(t), t^3), t, 0, x).y", 4.0),
+    (
+        "integral(integral(t u + t^2, t, 0, u), u, 0, x)",
+        10.0 / 3.0,
+    ),
+    ("integral(t in 0..x, exp(-t^2))", 0.882_081_390_762_421_7),
+    (
+        "integral(sum(k in 1..5, sin(k t)/k), t, 0, x)",
+        1.979_139_878_744_656_8,
+    ),
+    ("integral(g(t), t, 0, x)\ng(t) = t^2", 8.0 / 3.0),
+    (
+        "diff(integral(exp(-t^2), t, 0, x), x)",
+        0.018_315_638_888_734_18,
+    ),
+];
+
 #[test]
 fn integrals_of_the_language() {
-    for (text, exact) in [
-        (
-            "integral(exp(-t) sin(2 t)^2, t, 0, x)",
-            0.386_589_075_958_063,
-        ),
-        (
-            "integral(max(0, 1 - |t - y|)^2 exp(-t^2), t, -1, x)",
-            0.264_626_483_727_039,
-        ),
-        ("quadrature(t + sin(t^2), t, 0, x)", 2.804_776_489_343_756),
-        ("integral(sqrt(1 + t^2), t, x, -y)", -4.105_679_289_785_514),
-        (
-            "integral((cos(t), t^3), t, 0, x).x",
-            0.909_297_426_825_681_7,
-        ),
-        ("integral((cos(t), t^3), t, 0, x).y", 4.0),
-        (
-            "integral(integral(t u + t^2, t, 0, u), u, 0, x)",
-            10.0 / 3.0,
-        ),
-        ("integral(t in 0..x, exp(-t^2))", 0.882_081_390_762_421_7),
-        (
-            "integral(sum(k in 1..5, sin(k t)/k), t, 0, x)",
-            1.979_139_878_744_656_8,
-        ),
-        ("integral(g(t), t, 0, x)\ng(t) = t^2", 8.0 / 3.0),
-        (
-            "diff(integral(exp(-t^2), t, 0, x), x)",
-            0.018_315_638_888_734_18,
-        ),
-    ] {
+    for (text, exact) in OF_THE_LANGUAGE {
         let program = compile(&format!("f(x, y) = {text}"));
         let program = program
             .program

@@ -1,6 +1,9 @@
 //! Integrals along rays against mpmath at 60 digits: tests/oracle/integrals_rays.py.
 
+#[cfg(feature = "gpu")]
+mod gpu;
 mod language;
+mod ridge;
 mod textbook;
 
 use std::fmt::Write as _;
@@ -198,6 +201,19 @@ fn slope_error(of: &Formula, integral: &Formula, rays: &[Ray]) -> f64 {
     worst
 }
 
+/// The integral as a formula, and for each ray the error that the roundings of the ray and of the terms may make.
+fn with_allowances(of: &Formula, made: FieldIntegral, rays: &[Ray]) -> (Formula, Vec<f64>) {
+    let terms = size_of_terms(of, &made, rays);
+    let integral = made.into_formula(of);
+    let moved = sensitivity(&integral, rays);
+    let allowed = moved
+        .iter()
+        .zip(&terms)
+        .map(|(m, t)| ROUNDINGS * m + ROUNDINGS * 6e-8 * t)
+        .collect();
+    (integral, allowed)
+}
+
 fn measure(density: &Density) -> Measured {
     let of = formula(&density.text);
     let made = field_integral(&of, Otherwise::Quadrature)
@@ -219,15 +235,8 @@ fn measure(density: &Density) -> Measured {
     };
     out.rules.sort_unstable();
     out.rules.dedup();
-    let terms = size_of_terms(&of, &made, &density.rays);
-    let integral = made.into_formula(&of);
+    let (integral, allowed) = with_allowances(&of, made, &density.rays);
     out.slope = slope_error(&of, &integral, &density.rays);
-    let moved = sensitivity(&integral, &density.rays);
-    let allowed: Vec<f64> = moved
-        .iter()
-        .zip(&terms)
-        .map(|(m, t)| ROUNDINGS * m + ROUNDINGS * 6e-8 * t)
-        .collect();
     let at = points(density.rays.iter().map(|r| r.args.clone()));
     let machines = [
         Machine::Reference,
