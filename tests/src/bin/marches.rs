@@ -10,7 +10,10 @@ use pullback_tests::marches::densities::{DENSITIES, Density};
 use pullback_tests::marches::{FRAME, Measured, Plan, Rival, measure};
 
 /// The marks around the table in the document.
-const BEGIN: &str = "<!-- speed: `cargo run --release --bin marches -- --adapter software --markdown docs/integrals.md` -->\n";
+const BEGIN: &str = concat!(
+    "<!-- speed: `cargo run -p pullback-tests --bin marches -- --adapter software --markdown ",
+    "docs/integrals.md` -->\n"
+);
 const END: &str = "<!-- end of the speed -->\n";
 
 /// Frame times of closed forms of integrals against those of a march and of Gauss quadrature at equal error.
@@ -32,7 +35,7 @@ struct Options {
     #[arg(long, default_value_t = 1e-5)]
     floor: f64,
     /// Seconds of timed turns of a density
-    #[arg(long, default_value_t = 3.0)]
+    #[arg(long, default_value_t = 2.0)]
     seconds: f64,
 }
 
