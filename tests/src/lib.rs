@@ -15,6 +15,8 @@ pub mod formatting;
 pub mod goldens;
 pub mod holds;
 pub mod loops;
+#[cfg(feature = "gpu")]
+pub mod marches;
 pub mod mutate;
 #[cfg(feature = "gpu")]
 pub mod pictures;
