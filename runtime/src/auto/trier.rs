@@ -40,7 +40,7 @@ impl Trier<'_> {
     pub(super) fn evaluator(self, module: &EvalModule) -> Result<Evaluating, Error> {
         Ok(match self {
             Self::Device(gpu) => Evaluating::Device(Box::new(GpuEvaluator::new(gpu, module)?)),
-            Self::Exact => Evaluating::Exact(Rows::new(module, Arithmetic::Ieee32)?),
+            Self::Exact => Evaluating::Exact(Box::new(Rows::new(module, Arithmetic::Ieee32)?)),
         })
     }
 }
@@ -48,7 +48,7 @@ impl Trier<'_> {
 /// A formula that is evaluated in a tier.
 pub(super) enum Evaluating {
     Device(Box<GpuEvaluator>),
-    Exact(Rows),
+    Exact(Box<Rows>),
 }
 
 impl Evaluating {
