@@ -336,8 +336,10 @@ def charges(x, y):
 
 
 # Points that some formulas are judged at: far away the lattice of the noise is finer than binary32; next to the planes
-# that the sponge is mirrored by, binary32 cannot tell which of two coordinates is the greater after a fold.
+# that the sponge is mirrored by, binary32 cannot tell which of two coordinates is the greater after a fold; far along the tunnel
+# all its numbers are whole, where the slope of the sine is greatest and its scale of first order is nil.
 JUDGED = {name: lambda c: abs(c) <= 100 for name in ("landscape", "cells", "pebble", "cloud")}
+JUDGED["rainbow-tunnel"] = lambda c: abs(c) <= 1e6
 JUDGED["sponge"] = lambda c: 1e-3 <= abs(c) <= 100
 
 PLANE = {
