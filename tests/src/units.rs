@@ -19,9 +19,10 @@ use naga::{
 };
 
 /// Stubs that the compiler fills in, with what is in the components of their results.
-pub const FIELD_STUBS: [&str; 8] = [
+pub const FIELD_STUBS: [&str; 9] = [
     "field",
     "field_grad",
+    "field_integral",
     "field_jet2",
     "field_ray",
     "map",

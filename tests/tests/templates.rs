@@ -228,6 +228,10 @@ fn demands_have_the_contract_s_signatures() {
             "field_ray",
             vec!["fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f"],
         ),
+        (
+            "field_integral",
+            vec!["fn field_integral(o: vec3f, d: vec3f, a: f32, b: f32) -> f32"],
+        ),
         ("map", vec!["fn map(offset: vec2f) -> vec2f"]),
         ("map_jet", vec!["fn map_jet(offset: vec2f) -> Jet"]),
         ("chart_jet", vec!["fn chart_jet(z: vec2f) -> Jet"]),
