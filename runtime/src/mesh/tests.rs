@@ -114,3 +114,50 @@ fn files_are_read() {
     assert!(told("c.obj", "v 0 0 0\nf 1 2 9\n").contains("mesh"));
     assert!(told("d.gltf", "{").contains("mesh"));
 }
+
+/// A tetrahedron whose apex is 2 above the ground in y, which is up in glTF; its node turns nothing, or mirrors x.
+fn tetrahedron(scale: f32) -> Vec<[u32; 4]> {
+    use base64::Engine as _;
+    let positions = [
+        [0.0f32, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 2.0, 0.0],
+        [0.0, 0.0, 1.0],
+    ];
+    let numbers = [0u16, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
+    let mut bytes: Vec<u8> = positions
+        .iter()
+        .flatten()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    bytes.extend(numbers.iter().flat_map(|n| n.to_le_bytes()));
+    let data = base64::engine::general_purpose::STANDARD.encode(&bytes);
+    let text = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
+        "nodes":[{{"mesh":0,"scale":[{scale},1,1]}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],
+        "buffers":[{{"byteLength":72,"uri":"data:application/octet-stream;base64,{data}"}}],
+        "bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":24}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,2,1]}},
+        {{"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}}]}}"#
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.gltf");
+    std::fs::write(&path, text).unwrap();
+    load(&path).unwrap()
+}
+
+#[test]
+fn gltf_is_read_with_y_up_and_nodes_in_place() {
+    for scale in [1.0, -1.0] {
+        let words = tetrahedron(scale);
+        let [_, triangles, vertices, _] = words[0].map(|w| w as usize);
+        assert_eq!((triangles, words.len()), (4, vertices + 4));
+        let apex = words[vertices + 2].map(f32::from_bits);
+        // the height fills the box, half as much is left for x, whose least or greatest end the apex is at
+        assert!(
+            (apex[2] - 1.0).abs() < 1e-6 && (apex[0] + 0.5 * scale).abs() < 1e-6,
+            "{apex:?}"
+        );
+    }
+}
