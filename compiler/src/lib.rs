@@ -32,6 +32,7 @@ pub mod program;
 pub mod reference;
 pub mod scene;
 mod simplify;
+mod specialise;
 pub mod stable;
 pub mod table;
 pub mod types;

@@ -7,8 +7,8 @@ mod sums;
 use std::io;
 use std::time::Instant;
 
-use pullback_compiler::SceneModule;
 use pullback_compiler::lower::Format;
+use pullback_compiler::{SceneModule, SettingValue};
 
 use crate::probe::turns;
 use crate::tiles::{self, Budget, Pending, Tile};
@@ -174,13 +174,15 @@ impl RowSink for Vec<u8> {
 }
 
 /// A scene's shader on a device with its pipelines and buffers: change anything in the [`Frame`] and render again
-/// without any compilation. The pipelines are made when first used.
+/// without any compilation; anything but the settings, if it was made for some ([`Self::for_settings`]). The pipelines are made when first used.
 #[derive(Debug)]
 pub struct Renderer {
     gpu: Gpu,
     shader: wgpu::ShaderModule,
     format: Format,
     uniforms: Uniforms,
+    /// The settings that the module is made for, if it is made for some alone.
+    fixed: Option<Vec<u8>>,
     compute: Option<ComputeStage>,
     fragment: Option<FragmentStage>,
     linear: Option<ComputeStage>,
@@ -220,6 +222,7 @@ impl Renderer {
                 wide: buffers::wide(gpu)?,
                 mesh: buffers::mesh(gpu, &scene.mesh)?,
             },
+            fixed: scene.fixed_settings().map(<[u8]>::to_vec),
             compute: None,
             fragment: None,
             linear: None,
@@ -231,6 +234,22 @@ impl Renderer {
             turns: turns::limit(gpu)?,
             most: u32::MAX,
         })
+    }
+
+    /// Loads the scene for pictures with these settings alone: they become constants of the shader, which is smaller and faster.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn for_settings(
+        gpu: &Gpu,
+        scene: &SceneModule,
+        settings: &[SettingValue],
+    ) -> Result<Self, Error> {
+        let specialised = scene.specialised(settings).map_err(|error| {
+            let reason = format!("the scene cannot be made for its settings: {error:?}");
+            Error::Invalid { reason }
+        })?;
+        Self::new(gpu, &specialised)
     }
 
     /// The device.
@@ -311,6 +330,14 @@ impl Renderer {
                 "{settings} bytes of settings for a scene that has {}",
                 self.uniforms.settings.size()
             );
+            return Err(Error::Invalid { reason });
+        }
+        if self
+            .fixed
+            .as_ref()
+            .is_some_and(|fixed| fixed != frame.settings)
+        {
+            let reason = "the scene was made for other settings".to_owned();
             return Err(Error::Invalid { reason });
         }
         Ok(())

@@ -86,6 +86,20 @@ impl Still {
         }
     }
 
+    /// The shader for its settings, or, if it is to be `general`, for any.
+    ///
+    /// # Panics
+    /// There is a mistake in the compiler.
+    #[must_use]
+    pub fn shader(&self, general: bool) -> SceneModule {
+        if general {
+            return self.scene.clone();
+        }
+        self.scene
+            .specialised(&self.settings)
+            .expect("a module for settings")
+    }
+
     /// Draws it in the form of a pipeline.
     ///
     /// # Errors
@@ -104,7 +118,8 @@ impl Still {
         let mut rows = Vec::new();
         match machine {
             Machine::Adapter(gpu) => {
-                Renderer::new(gpu, &self.scene)?.render(&frame, &mut rows)?;
+                Renderer::for_settings(gpu, &self.scene, &self.settings)?
+                    .render(&frame, &mut rows)?;
             }
             Machine::Processor(arithmetic) => {
                 let painter = Painter::new(&self.scene, *arithmetic, pipeline)?;

@@ -195,6 +195,8 @@ pub struct Plan {
     pub turns: u32,
     /// Whether to compare with the reference, which takes its time.
     pub reference: bool,
+    /// Whether our shaders read their settings, so that these could change, instead of being made for them.
+    pub general: bool,
     /// WGSL of a scene that is measured in the place of `fast`, to find out what costs.
     pub instead: Option<String>,
 }
@@ -207,16 +209,17 @@ pub fn measure(twin: &Twin, gpu: &Gpu, plan: &Plan) -> Result<Measured, Error> {
     let precisions = [Precision::Accurate, Precision::Fast];
     let ours = precisions.map(|precision| twin.still(plan.size, precision));
     let canvas = Canvas::new(gpu, &ours[0])?;
+    let scenes = ours.each_ref().map(|still| still.shader(plan.general));
     let (module, info) = twin.module();
     let second = match &plan.instead {
         Some(text) => {
             let (module, info) = parsed("--instead", text);
             canvas.stage(&module, &info)?
         }
-        None => canvas.stage(&ours[1].scene.module, &ours[1].scene.info)?,
+        None => canvas.stage(&scenes[1].module, &scenes[1].info)?,
     };
     let stages = [
-        canvas.stage(&ours[0].scene.module, &ours[0].scene.info)?,
+        canvas.stage(&scenes[0].module, &scenes[0].info)?,
         second,
         canvas.stage(&module, &info)?,
     ];

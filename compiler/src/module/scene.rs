@@ -10,6 +10,7 @@ use crate::link::{Linker, Sources};
 use crate::lower::Tier;
 use crate::program::{Picture, SettingValue};
 use crate::scene::{ENTRIES, Scene, TABLE, setting_component};
+use crate::specialise::specialise;
 
 /// A validated module with entry points `vertex_main`, `fragment_main`, `compute_main` and `linear_main`.
 #[derive(Clone, Debug)]
@@ -24,6 +25,8 @@ pub struct SceneModule {
     pub settings_size: usize,
     /// What the formula's numbers are computed with.
     pub tier: Tier,
+    /// The bytes of the settings that it is made for, if it is made for some.
+    fixed: Option<Vec<u8>>,
     /// The words of the storage `mesh`, of a scene that has one: the host's to fill in. See `shaders/shared/mesh.wgsl`.
     pub mesh: Vec<[u32; 4]>,
 }
@@ -54,8 +57,38 @@ impl SceneModule {
             layout,
             settings_size,
             tier,
+            fixed: None,
             mesh: Vec::new(),
         })
+    }
+
+    /// The scene for these settings alone: a module in which they are constants, and which holds only what they need. Where
+    /// settings change from frame to frame, the module itself is the one to use, which compiles once for all of them.
+    ///
+    /// # Errors
+    /// [`ModuleError::Invalid`], which would be a mistake of ours.
+    pub fn specialised(&self, settings: &[SettingValue]) -> Result<Self, ModuleError> {
+        let bytes = self.pack_settings(settings);
+        let words: Vec<Option<u32>> = bytes
+            .chunks_exact(4)
+            .map(|word| word.try_into().ok().map(u32::from_le_bytes))
+            .collect();
+        let mut module = self.module.clone();
+        specialise(&mut module, &words);
+        naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
+        let info = validate(&module, self.tier.precision)?;
+        Ok(Self {
+            module,
+            info,
+            fixed: Some(bytes),
+            ..self.clone()
+        })
+    }
+
+    /// The bytes of the settings that it is made for alone, if it is; else it is for any.
+    #[must_use]
+    pub fn fixed_settings(&self) -> Option<&[u8]> {
+        self.fixed.as_deref()
     }
 
     /// The first step of [`Self::new`]: derivatives, lowering and linking, not yet compacted and validated.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::Args;
-use pullback_compiler::{Program, SceneModule, SettingValue};
+use pullback_compiler::{Picture, Program, SceneModule, SettingValue};
 use pullback_runtime::animation::{self, Clip, Container, MAX_FRAMES, Sweep};
 use pullback_runtime::image_file::{Alpha, Format};
 use pullback_runtime::{Error, Frame, Metadata, RowSink, Size, View, image_file};
@@ -68,6 +68,12 @@ impl Animation {
             ));
         }
         Ok(self.frames)
+    }
+
+    /// Whether all frames have the settings of the first.
+    pub(super) fn keeps_settings(&self, picture: &Picture) -> bool {
+        let mut sweeps = self.sweep.iter();
+        sweeps.all(|sweep| picture.scene.setting(&sweep.name).is_none())
     }
 
     /// The numbers of a frame.

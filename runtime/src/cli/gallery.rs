@@ -170,7 +170,7 @@ fn draw(
     let bytes = scene.pack_settings(&subject.settings);
     let frame = subject.frame(&bytes);
     let mut pixels = Vec::new();
-    Artist::new(computer, &scene, frame.pipeline)?
+    Artist::new(computer, &scene, frame.pipeline, Some(&subject.settings))?
         .render(&frame, &subject.settings, &mut pixels)
         .map_err(|error| subject.source.blamed(error.into(), console))?;
     Ok(pixels)

@@ -142,7 +142,9 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         &computer,
     );
     let mut progress = Progress::new(console);
-    let mut artist = Artist::new(&computer, &scene, frame.pipeline)?;
+    let fixed = arguments.animation.keeps_settings(picture);
+    let fixed = fixed.then_some(settings.as_slice());
+    let mut artist = Artist::new(&computer, &scene, frame.pipeline, fixed)?;
     if let Some(frames) = frames {
         let reel = Reel {
             program: &source.program,
@@ -237,13 +239,18 @@ pub(super) enum Artist {
 }
 
 impl Artist {
+    /// `settings` are those of all pictures, if they stay the same.
     pub(super) fn new(
         computer: &Computer,
         scene: &SceneModule,
         pipeline: Pipeline,
+        settings: Option<&[SettingValue]>,
     ) -> Result<Self, Failure> {
         Ok(match computer {
-            Computer::Adapter(gpu) => Self::Device(Box::new(Renderer::new(gpu, scene)?)),
+            Computer::Adapter(gpu) => Self::Device(Box::new(match settings {
+                Some(settings) => Renderer::for_settings(gpu, scene, settings)?,
+                None => Renderer::new(gpu, scene)?,
+            })),
             Computer::Processor(arithmetic) => {
                 Self::Processor(Box::new(Painter::new(scene, *arithmetic, pipeline)?))
             }

@@ -30,6 +30,9 @@ struct Options {
     /// Times alone, without the f64 reference
     #[arg(long)]
     times: bool,
+    /// Shaders that read their settings, so that these could change, instead of such that are made for them
+    #[arg(long)]
+    general: bool,
     /// A scene in WGSL, as `pullback emit --what scene` writes it, that is timed in the place of `fast`: to find out
     /// what costs by leaving it out
     #[arg(long)]
@@ -77,6 +80,7 @@ fn run(options: &Options) -> Result<(), Error> {
         small: options.small,
         turns: options.turns,
         reference: !options.times,
+        general: options.general,
         instead: options
             .instead
             .as_ref()

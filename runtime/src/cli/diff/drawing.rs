@@ -88,7 +88,7 @@ fn drawn(subject: &Subject, side: &Side, console: &Console) -> Result<Named, Fai
         sink: &mut rows,
         progress: &mut progress,
     };
-    Artist::new(&computer, &scene, frame.pipeline)?
+    Artist::new(&computer, &scene, frame.pipeline, Some(&subject.settings))?
         .render(&frame, &subject.settings, &mut counted)
         .map_err(|error| subject.source.blamed(error.into(), console))?;
     Ok(Named {

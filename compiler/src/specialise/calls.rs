@@ -1,0 +1,67 @@
+//! What is known of the functions of a module: what they are called with, and what they return.
+
+use naga::{Function, Handle, Type};
+use rustc_hash::FxHashMap;
+
+use super::known::Known;
+
+/// Arguments so far, and results from the round before.
+#[derive(Debug)]
+pub struct Calls {
+    /// The type of the settings.
+    pub settings: Handle<Type>,
+    arguments: FxHashMap<Handle<Function>, Vec<Option<Known>>>,
+    values: FxHashMap<Handle<Function>, Known>,
+}
+
+impl Calls {
+    pub fn new(settings: Handle<Type>) -> Self {
+        Self {
+            settings,
+            arguments: FxHashMap::default(),
+            values: FxHashMap::default(),
+        }
+    }
+
+    /// Notes a call: an argument stays known while all calls agree on it.
+    pub fn note<'a>(
+        &mut self,
+        function: Handle<Function>,
+        arguments: impl Iterator<Item = Option<&'a Known>>,
+    ) {
+        match self.arguments.get_mut(&function) {
+            None => {
+                let first = arguments.map(|a| a.cloned()).collect();
+                self.arguments.insert(function, first);
+            }
+            Some(known) => {
+                for (slot, argument) in known.iter_mut().zip(arguments) {
+                    let same = matches!((&*slot, argument), (Some(x), Some(y)) if x.is(y));
+                    if !same {
+                        *slot = None;
+                    }
+                }
+            }
+        }
+    }
+
+    /// What the function is called with; `None` if nothing calls it.
+    pub fn arguments(&self, function: Handle<Function>) -> Option<Vec<Option<Known>>> {
+        self.arguments.get(&function).cloned()
+    }
+
+    /// What the function always returns.
+    pub fn value(&self, function: Handle<Function>) -> Option<&Known> {
+        self.values.get(&function)
+    }
+
+    /// Notes what a function always returns; whether that is news.
+    pub fn returns(&mut self, function: Handle<Function>, value: Known) -> bool {
+        self.values.insert(function, value).is_none()
+    }
+
+    /// Before the next round: all calls are looked at anew.
+    pub fn forget_arguments(&mut self) {
+        self.arguments.clear();
+    }
+}

@@ -1,0 +1,664 @@
+//! One function, with what is known put in its place and what cannot be reached left out.
+
+use naga::{
+    Arena, Block, Expression, Function, GlobalVariable, Handle, Literal, LocalVariable, ScalarKind,
+    Span, Statement, SwitchCase, SwitchValue, Type, TypeInner,
+};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::calls::Calls;
+use super::fold;
+use super::known::{Key, Known};
+use super::operands::each_operand;
+use super::pools::Pools;
+use super::stores::{tracked, writes};
+
+/// The settings' words that are fixed; `None` for those that may change.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed<'a> {
+    pub global: Handle<GlobalVariable>,
+    pub words: &'a [Option<u32>],
+}
+
+impl Fixed<'_> {
+    /// The number at an offset in bytes. Numbers that no literal can be, and subnormal ones, which machines treat
+    /// differently, count as unknown.
+    fn word(&self, offset: u32, kind: ScalarKind) -> Option<Literal> {
+        let bits = (*self.words.get(offset as usize / 4)?)?;
+        match kind {
+            ScalarKind::Float => {
+                let x = f32::from_bits(bits);
+                (x == 0.0 || x.is_normal()).then_some(Literal::F32(x))
+            }
+            ScalarKind::Uint => Some(Literal::U32(bits)),
+            ScalarKind::Sint => Some(Literal::I32(bits.cast_signed())),
+            _ => None,
+        }
+    }
+}
+
+/// What has become of an expression.
+#[derive(Clone, Debug, Default)]
+struct Slot {
+    known: Option<Known>,
+    at: Option<Handle<Expression>>,
+}
+
+/// A construct that no shader of ours has: the function is left as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unforeseen;
+
+/// Makes a function anew.
+pub struct Rewriter<'a, 'm> {
+    old: &'a Function,
+    fixed: Fixed<'a>,
+    pools: &'a mut Pools<'m>,
+    calls: &'a mut Calls,
+    arguments: Vec<Option<Known>>,
+    expressions: Arena<Expression>,
+    slots: Vec<Slot>,
+    literals: FxHashMap<Key, Handle<Expression>>,
+    /// Locals whose every use is seen, and the values of those that are known here.
+    tracked: FxHashSet<Handle<LocalVariable>>,
+    values: FxHashMap<Handle<LocalVariable>, Known>,
+    /// Blocks that are being made, the innermost last.
+    out: Vec<Block>,
+    /// Where expressions begin that no statement emits yet.
+    run: Option<usize>,
+    /// Values of the returns.
+    returned: Vec<Option<Known>>,
+    /// Whether it does anything but compute.
+    acts: bool,
+    /// Whether every operand was there when it was used.
+    is_sound: bool,
+}
+
+impl<'a, 'm> Rewriter<'a, 'm> {
+    pub fn new(
+        old: &'a Function,
+        arguments: Vec<Option<Known>>,
+        fixed: Fixed<'a>,
+        pools: &'a mut Pools<'m>,
+        calls: &'a mut Calls,
+    ) -> Self {
+        Self {
+            old,
+            fixed,
+            pools,
+            calls,
+            arguments,
+            expressions: Arena::new(),
+            slots: vec![Slot::default(); old.expressions.len()],
+            literals: FxHashMap::default(),
+            tracked: tracked(old),
+            values: FxHashMap::default(),
+            out: Vec::new(),
+            run: None,
+            returned: Vec::new(),
+            acts: false,
+            is_sound: true,
+        }
+    }
+
+    /// The new function, and its value if that is known and nothing else is done.
+    pub fn run(mut self) -> Result<(Function, Option<Known>), Unforeseen> {
+        for (handle, expression) in self.old.expressions.iter() {
+            if expression.needs_pre_emit() {
+                self.declare(handle, expression);
+            }
+        }
+        let local_variables = self.local_variables()?;
+        let (body, _) = self.block(&self.old.body)?;
+        if !self.is_sound {
+            return Err(Unforeseen);
+        }
+        let named_expressions = self
+            .old
+            .named_expressions
+            .iter()
+            .filter_map(|(handle, name)| {
+                let at = self.slots[handle.index()].at?;
+                let is_named = !self.expressions[at].needs_pre_emit();
+                is_named.then(|| (at, name.clone()))
+            })
+            .collect();
+        let value = self.value();
+        let function = Function {
+            name: self.old.name.clone(),
+            arguments: self.old.arguments.clone(),
+            result: self.old.result.clone(),
+            local_variables,
+            expressions: self.expressions,
+            named_expressions,
+            body,
+            diagnostic_filter_leaf: self.old.diagnostic_filter_leaf,
+        };
+        Ok((function, value))
+    }
+
+    /// What the function always returns.
+    fn value(&self) -> Option<Known> {
+        let first = self.returned.first()?.as_ref()?;
+        let same = |value: &Option<Known>| value.as_ref().is_some_and(|x| x.is(first));
+        (!self.acts && self.returned.iter().all(same)).then(|| first.clone())
+    }
+
+    /// Expressions that are there from the beginning.
+    fn declare(&mut self, handle: Handle<Expression>, expression: &Expression) {
+        let known = match *expression {
+            Expression::Literal(literal) => Some(Known::Scalar(literal)),
+            Expression::Constant(constant) => self.pools.value(constant),
+            Expression::ZeroValue(ty) => self.pools.zero(ty),
+            Expression::FunctionArgument(k) => self.arguments[k as usize].clone(),
+            _ => None,
+        };
+        let span = self.old.expressions.get_span(handle);
+        // what is known and turns out to be needed is made where it is needed
+        let is_copied = known.is_none() || matches!(expression, Expression::Constant(_));
+        let at = is_copied.then(|| self.expressions.append(expression.clone(), span));
+        self.slots[handle.index()] = Slot { known, at };
+    }
+
+    fn local_variables(&mut self) -> Result<Arena<LocalVariable>, Unforeseen> {
+        let mut all = Arena::new();
+        for (handle, variable) in self.old.local_variables.iter() {
+            let mut variable = variable.clone();
+            if let Some(init) = variable.init {
+                // initial values are constant expressions, which need not be emitted anywhere
+                let known = self.constant(init).ok_or(Unforeseen)?;
+                variable.init = Some(self.made(&known, variable.ty));
+                if self.tracked.contains(&handle) {
+                    self.values.insert(handle, known);
+                }
+            }
+            let span = self.old.local_variables.get_span(handle);
+            // the handle is the same: all variables are kept, in their order
+            all.append(variable, span);
+        }
+        Ok(all)
+    }
+
+    /// The value of a constant expression.
+    fn constant(&mut self, handle: Handle<Expression>) -> Option<Known> {
+        if let Some(known) = &self.slots[handle.index()].known {
+            return Some(known.clone());
+        }
+        let expression = self.old.expressions[handle].clone();
+        let mut is_whole = true;
+        let mut parts = Vec::new();
+        each_operand(&mut expression.clone(), &mut |part| parts.push(*part));
+        for part in parts {
+            let known = self.constant(part);
+            is_whole &= known.is_some();
+            self.slots[part.index()].known = known;
+        }
+        if is_whole {
+            self.folded(&expression)
+        } else {
+            None
+        }
+    }
+
+    // Blocks and statements
+
+    /// A block made anew, and whether nothing after it is reached.
+    fn block(&mut self, old: &Block) -> Result<(Block, bool), Unforeseen> {
+        self.out.push(Block::new());
+        let ended = self.statements(old)?;
+        self.flush();
+        let made = self.out.pop().unwrap_or_default();
+        Ok((made, ended))
+    }
+
+    fn statements(&mut self, old: &Block) -> Result<bool, Unforeseen> {
+        for (statement, span) in old.span_iter() {
+            if self.statement(statement, *span)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Makes a statement anew; whether nothing after it is reached.
+    fn statement(&mut self, statement: &Statement, span: Span) -> Result<bool, Unforeseen> {
+        match statement {
+            Statement::Emit(range) => {
+                range.clone().for_each(|handle| self.compute(handle));
+            }
+            Statement::Block(inner) => {
+                let (block, ended) = self.block(inner)?;
+                self.push(Statement::Block(block), span);
+                return Ok(ended);
+            }
+            Statement::If {
+                condition,
+                accept,
+                reject,
+            } => return self.branch(*condition, (accept, reject), span),
+            Statement::Switch { selector, cases } => self.switch(*selector, cases, span)?,
+            Statement::Loop {
+                body,
+                continuing,
+                break_if,
+            } => self.repeat((body, continuing), *break_if, span)?,
+            Statement::Break | Statement::Continue | Statement::Kill => {
+                self.acts |= matches!(statement, Statement::Kill);
+                self.push(statement.clone(), span);
+                return Ok(true);
+            }
+            Statement::Return { value } => {
+                let known = value.map(|v| self.slots[v.index()].known.clone());
+                self.returned.push(known.flatten());
+                let value = value.map(|v| self.operand(v));
+                self.push(Statement::Return { value }, span);
+                return Ok(true);
+            }
+            Statement::Store { pointer, value } => self.store(*pointer, *value, span),
+            Statement::Call {
+                function,
+                arguments,
+                result,
+            } => {
+                if let (Some(known), Some(result)) = (self.calls.value(*function), result) {
+                    self.slots[result.index()].known = Some(known.clone());
+                    return Ok(false);
+                }
+                self.acts = true;
+                let known = arguments
+                    .iter()
+                    .map(|a| self.slots[a.index()].known.as_ref());
+                self.calls.note(*function, known);
+                let arguments = arguments.iter().map(|&a| self.operand(a)).collect();
+                self.flush();
+                let result = result.map(|old| {
+                    let span = self.old.expressions.get_span(old);
+                    let call = Expression::CallResult(*function);
+                    let made = self.expressions.append(call, span);
+                    self.slots[old.index()].at = Some(made);
+                    made
+                });
+                let function = *function;
+                let call = Statement::Call {
+                    function,
+                    arguments,
+                    result,
+                };
+                self.push(call, span);
+            }
+            _ => return Err(Unforeseen),
+        }
+        Ok(false)
+    }
+
+    fn store(&mut self, pointer: Handle<Expression>, value: Handle<Expression>, span: Span) {
+        if let Expression::LocalVariable(local) = self.old.expressions[pointer] {
+            match &self.slots[value.index()].known {
+                Some(known) if self.tracked.contains(&local) => {
+                    self.values.insert(local, known.clone());
+                }
+                _ => {
+                    self.values.remove(&local);
+                }
+            }
+        } else {
+            self.acts = true;
+        }
+        let store = Statement::Store {
+            pointer: self.operand(pointer),
+            value: self.operand(value),
+        };
+        self.push(store, span);
+    }
+
+    fn branch(
+        &mut self,
+        condition: Handle<Expression>,
+        (accept, reject): (&Block, &Block),
+        span: Span,
+    ) -> Result<bool, Unforeseen> {
+        if let Some(truth) = self.slots[condition.index()]
+            .known
+            .as_ref()
+            .and_then(Known::bool)
+        {
+            return self.statements(if truth { accept } else { reject });
+        }
+        let condition = self.operand(condition);
+        self.flush();
+        let before = self.values.clone();
+        let (accept, accept_ends) = self.block(accept)?;
+        let after_accept = std::mem::replace(&mut self.values, before);
+        let (reject, reject_ends) = self.block(reject)?;
+        match (accept_ends, reject_ends) {
+            (true, _) => {}
+            (false, true) => self.values = after_accept,
+            (false, false) => self.values.retain(|local, value| {
+                let other = after_accept.get(local);
+                other.is_some_and(|other| other.is(value))
+            }),
+        }
+        let branch = Statement::If {
+            condition,
+            accept,
+            reject,
+        };
+        self.push(branch, span);
+        Ok(accept_ends && reject_ends)
+    }
+
+    fn switch(
+        &mut self,
+        selector: Handle<Expression>,
+        cases: &[SwitchCase],
+        span: Span,
+    ) -> Result<(), Unforeseen> {
+        if cases
+            .iter()
+            .any(|case| case.fall_through && !case.body.is_empty())
+        {
+            return Err(Unforeseen);
+        }
+        let known = self.slots[selector.index()].known.clone();
+        let chosen = known.as_ref().and_then(|known| taken(known, cases));
+        let selector = self.operand(selector);
+        self.flush();
+        for case in cases {
+            for local in writes(self.old, &case.body) {
+                self.values.remove(&local);
+            }
+        }
+        let before = self.values.clone();
+        let mut made = Vec::new();
+        if let Some(case) = chosen {
+            let (body, _) = self.block(&case.body)?;
+            made.push(SwitchCase {
+                value: SwitchValue::Default,
+                body,
+                fall_through: false,
+            });
+        } else {
+            for case in cases {
+                let (body, _) = self.block(&case.body)?;
+                self.values.clone_from(&before);
+                made.push(SwitchCase {
+                    body,
+                    ..case.clone()
+                });
+            }
+        }
+        self.values = before;
+        let cases = made;
+        self.push(Statement::Switch { selector, cases }, span);
+        Ok(())
+    }
+
+    fn repeat(
+        &mut self,
+        (body, continuing): (&Block, &Block),
+        break_if: Option<Handle<Expression>>,
+        span: Span,
+    ) -> Result<(), Unforeseen> {
+        self.acts = true;
+        self.flush();
+        for local in [body, continuing]
+            .into_iter()
+            .flat_map(|block| writes(self.old, block))
+        {
+            self.values.remove(&local);
+        }
+        let around = self.values.clone();
+        let (body, _) = self.block(body)?;
+        self.values.clone_from(&around);
+        self.out.push(Block::new());
+        self.statements(continuing)?;
+        let break_if = break_if.map(|condition| self.operand(condition));
+        self.flush();
+        let continuing = self.out.pop().unwrap_or_default();
+        self.values = around;
+        let repeat = Statement::Loop {
+            body,
+            continuing,
+            break_if,
+        };
+        self.push(repeat, span);
+        Ok(())
+    }
+
+    fn push(&mut self, statement: Statement, span: Span) {
+        self.flush();
+        if let Some(block) = self.out.last_mut() {
+            block.push(statement, span);
+        }
+    }
+
+    /// Emits the expressions made since the last statement.
+    fn flush(&mut self) {
+        if let Some(start) = self.run.take() {
+            let range = self.expressions.range_from(start);
+            if let Some(block) = self.out.last_mut() {
+                block.push(Statement::Emit(range), Span::UNDEFINED);
+            }
+        }
+    }
+
+    // Expressions
+
+    /// Makes an expression anew, where a statement emits it.
+    fn compute(&mut self, handle: Handle<Expression>) {
+        let mut expression = self.old.expressions[handle].clone();
+        if let Some(known) = self.folded(&expression) {
+            self.slots[handle.index()] = Slot {
+                known: Some(known),
+                at: None,
+            };
+            return;
+        }
+        if let Expression::Select {
+            condition,
+            accept,
+            reject,
+        } = expression
+            && let Some(truth) = self.slots[condition.index()]
+                .known
+                .as_ref()
+                .and_then(Known::bool)
+        {
+            let taken = if truth { accept } else { reject };
+            self.slots[handle.index()] = self.slots[taken.index()].clone();
+            return;
+        }
+        each_operand(&mut expression, &mut |operand| {
+            *operand = self.operand(*operand);
+        });
+        let span = self.old.expressions.get_span(handle);
+        let start = self.expressions.len();
+        let made = self.expressions.append(expression, span);
+        self.run.get_or_insert(start);
+        self.slots[handle.index()] = Slot {
+            known: None,
+            at: Some(made),
+        };
+    }
+
+    /// What an operand has become, made if it is a known value.
+    fn operand(&mut self, old: Handle<Expression>) -> Handle<Expression> {
+        let slot = &self.slots[old.index()];
+        if let Some(at) = slot.at {
+            return at;
+        }
+        let made = match slot.known.clone() {
+            Some(Known::Composite(ty, parts)) => self.made(&Known::Composite(ty, parts), ty),
+            Some(known @ Known::Scalar(_)) => self.made_literal(&known),
+            // not in a valid module: operands come before their users
+            None => {
+                self.is_sound = false;
+                return old;
+            }
+        };
+        self.slots[old.index()].at = Some(made);
+        made
+    }
+
+    /// An expression for a known value: a literal, or a constant of the module. Neither needs to be emitted.
+    fn made(&mut self, known: &Known, ty: Handle<Type>) -> Handle<Expression> {
+        if matches!(known, Known::Scalar(_)) {
+            return self.made_literal(known);
+        }
+        let key = known.key();
+        if let Some(&made) = self.literals.get(&key) {
+            return made;
+        }
+        let constant = self.pools.constant(known, ty);
+        self.flush();
+        let made = self
+            .expressions
+            .append(Expression::Constant(constant), Span::UNDEFINED);
+        self.literals.insert(key, made);
+        made
+    }
+
+    fn made_literal(&mut self, known: &Known) -> Handle<Expression> {
+        let key = known.key();
+        if let Some(&made) = self.literals.get(&key) {
+            return made;
+        }
+        let literal = known.literal().unwrap_or(Literal::Bool(false));
+        self.flush();
+        let made = self
+            .expressions
+            .append(Expression::Literal(literal), Span::UNDEFINED);
+        self.literals.insert(key, made);
+        made
+    }
+
+    fn known(&self, handle: Handle<Expression>) -> Option<&Known> {
+        self.slots[handle.index()].known.as_ref()
+    }
+
+    /// The value of an expression, if it is known.
+    fn folded(&mut self, expression: &Expression) -> Option<Known> {
+        match *expression {
+            Expression::Load { pointer } => self.loaded(pointer),
+            Expression::Compose { ty, ref components } => {
+                let parts: Option<Vec<Known>> =
+                    components.iter().map(|&c| self.known(c).cloned()).collect();
+                self.pools.composed(ty, |_| parts)
+            }
+            Expression::Splat { size, value } => {
+                let part = self.known(value)?.clone();
+                self.pools.vector(vec![part; size as usize])
+            }
+            Expression::Swizzle {
+                size,
+                vector,
+                pattern,
+            } => {
+                let from = self.known(vector)?;
+                let parts: Option<Vec<Known>> = pattern[..size as usize]
+                    .iter()
+                    .map(|c| from.part(*c as usize).cloned())
+                    .collect();
+                self.pools.vector(parts?)
+            }
+            Expression::AccessIndex { base, index } => {
+                self.known(base)?.part(index as usize).cloned()
+            }
+            Expression::Access { base, index } => {
+                self.known(base)?.part(self.known(index)?.index()?).cloned()
+            }
+            Expression::Unary { op, expr } => fold::unary(op, self.known(expr)?),
+            Expression::Binary { op, left, right } => {
+                let known = fold::binary(op, self.known(left)?, self.known(right)?)?;
+                if fold::compares(op) {
+                    self.pools.retyped(known)
+                } else {
+                    Some(known)
+                }
+            }
+            Expression::Select {
+                condition,
+                accept,
+                reject,
+            } => {
+                let taken = if self.known(condition)?.bool()? {
+                    accept
+                } else {
+                    reject
+                };
+                self.known(taken).cloned()
+            }
+            Expression::Relational { fun, argument } => {
+                fold::relational(fun, self.known(argument)?)
+            }
+            Expression::Math {
+                fun,
+                arg,
+                arg1,
+                arg2,
+                arg3: None,
+            } => {
+                let mut args = vec![self.known(arg)?];
+                for next in [arg1, arg2].into_iter().flatten() {
+                    args.push(self.known(next)?);
+                }
+                fold::math(fun, &args)
+            }
+            Expression::As {
+                expr,
+                kind,
+                convert: Some(4),
+            } => {
+                let known = fold::each(self.known(expr)?, &|x| fold::converted(x, kind))?;
+                self.pools.retyped(known)
+            }
+            _ => None,
+        }
+    }
+
+    /// The value behind a pointer: of a local variable, or of a setting.
+    fn loaded(&self, pointer: Handle<Expression>) -> Option<Known> {
+        if let Expression::LocalVariable(local) = self.old.expressions[pointer] {
+            return self.values.get(&local).cloned();
+        }
+        let (ty, offset) = self.place(pointer)?;
+        self.pools
+            .read(ty, offset, &|offset, kind| self.fixed.word(offset, kind))
+    }
+
+    /// The type of a part of the settings, and its offset in bytes.
+    fn place(&self, pointer: Handle<Expression>) -> Option<(Handle<Type>, u32)> {
+        match self.old.expressions[pointer] {
+            Expression::GlobalVariable(global) if global == self.fixed.global => {
+                Some((self.calls.settings, 0))
+            }
+            Expression::AccessIndex { base, index } => {
+                let (ty, offset) = self.place(base)?;
+                match self.pools.inner(ty) {
+                    TypeInner::Struct { members, .. } => {
+                        let member = members.get(index as usize)?;
+                        Some((member.ty, offset + member.offset))
+                    }
+                    TypeInner::Array { base, stride, .. } => Some((*base, offset + index * stride)),
+                    _ => None,
+                }
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The case that a known number takes.
+fn taken<'a>(selector: &Known, cases: &'a [SwitchCase]) -> Option<&'a SwitchCase> {
+    let is_it = |case: &SwitchCase| match (selector.literal(), case.value) {
+        (Some(Literal::I32(x)), SwitchValue::I32(y)) => x == y,
+        (Some(Literal::U32(x)), SwitchValue::U32(y)) => x == y,
+        _ => false,
+    };
+    let start = cases.iter().position(is_it).or_else(|| {
+        cases
+            .iter()
+            .position(|case| case.value == SwitchValue::Default)
+    })?;
+    // cases that share a body fall through, with none of their own, to the one that has it
+    cases[start..].iter().find(|case| !case.fall_through)
+}
