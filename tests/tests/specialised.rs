@@ -14,8 +14,8 @@ use pullback_tests::corpus::gallery;
 use pullback_tests::stills::Still;
 
 const SIZE: Size = Size {
-    width: 15,
-    height: 9,
+    width: 7,
+    height: 5,
 };
 
 /// Pictures whose clouds take an executor in a debug build minutes.
@@ -86,7 +86,7 @@ fn what_settings_rule_out_is_left_out() {
 #[test]
 fn a_key_is_there_if_it_is_drawn() {
     let digits = |key: &str| {
-        let text = format!("f(z) = z^2 show domain {{ key: {key} }}\n");
+        let text = format!("f(z) = z^2\nshow domain(f) {{ key = {key} }}\n");
         let module = Still::new(&text, SIZE, 1).shader(false).module;
         let mut functions = module.functions.iter();
         functions.any(|(_, f)| f.name.as_deref() == Some("key_label"))
@@ -98,7 +98,7 @@ fn a_key_is_there_if_it_is_drawn() {
 #[test]
 fn a_shader_for_some_settings_refuses_others() {
     let Some(gpu) = suite_gpu() else { return };
-    let still = Still::new("f(x, y) = x y show levels\n", SIZE, 1);
+    let still = Still::new("f(x, y) = x y\nshow levels(f)\n", SIZE, 1);
     let mut renderer = Renderer::for_settings(&gpu, &still.scene, &still.settings).expect("one");
     let mut draw = |settings: &[u8]| {
         let frame = Frame {

@@ -620,9 +620,18 @@ impl<'a, 'm> Rewriter<'a, 'm> {
         if let Expression::LocalVariable(local) = self.old.expressions[pointer] {
             return self.values.get(&local).cloned();
         }
-        let (ty, offset) = self.place(pointer)?;
-        self.pools
-            .read(ty, offset, &|offset, kind| self.fixed.word(offset, kind))
+        let read = |(ty, offset)| {
+            let word = |offset, kind| self.fixed.word(offset, kind);
+            self.pools.read(ty, offset, &word)
+        };
+        if let Some(place) = self.place(pointer) {
+            return read(place);
+        }
+        // a component of a vector has no place of a type of its own
+        let Expression::AccessIndex { base, index } = self.old.expressions[pointer] else {
+            return None;
+        };
+        read(self.place(base)?)?.part(index as usize).cloned()
     }
 
     /// The type of a part of the settings, and its offset in bytes.
