@@ -65,7 +65,9 @@ impl Program {
         let mut all: Vec<Charge> = Vec::new();
         for (place, (inst, &times)) in self.code.iter().zip(&issued.0).enumerate() {
             let (mut kind, weight) = weight(inst.op);
-            if inst.d.is_uniform() && kind != Kind::Flow && kind != Kind::Memory {
+            let decides = inst.a.is_uniform() && kind == Kind::Flow;
+            let same = inst.d.is_uniform() && kind != Kind::Flow && kind != Kind::Memory;
+            if decides || same {
                 kind = Kind::Uniform;
             }
             let slots = times * weight;

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use pullback_runtime::difference::Bitmap;
-use pullback_runtime::{AdapterChoice, Error, Gpu, Metadata, Size, image_file};
 use pullback_compiler::lower::Precision;
+use pullback_runtime::difference::Bitmap;
 use pullback_runtime::executor::Kind;
+use pullback_runtime::{AdapterChoice, Error, Gpu, Metadata, Size, image_file};
 use pullback_tests::twins::{Count, Measured, Plan, TWINS, Twin, count, measure};
 
 /// Frame times and errors of pictures of every scene, and of a twin that was written by hand.
