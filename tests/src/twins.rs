@@ -3,6 +3,7 @@
 
 mod canvas;
 mod clock;
+mod count;
 
 use std::fmt;
 
@@ -15,6 +16,7 @@ use pullback_runtime::{Error, Gpu, Pipeline, Size};
 
 use crate::stills::{Machine, Still};
 pub use canvas::{Canvas, Stage};
+pub use count::{Count, count};
 
 /// A scene's twin, and the program whose picture it is.
 #[derive(Clone, Copy, Debug)]

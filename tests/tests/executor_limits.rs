@@ -175,12 +175,12 @@ fn endless_loops_are_told_soon() {
 fn samples_do_not_count_together() {
     let program = program(
         "fn work(n: u32) -> u32 { var k = 0u; loop { if k == n { return k; } k += 1u; } return 0u; }
-        fn pixel_mean(n: u32) -> u32 {
+        fn with_samples(n: u32) -> u32 {
             var sum = 0u;
             for (var j = 0u; j < 4u; j++) { for (var i = 0u; i < 4u; i++) { sum += work(n); } }
             return sum;
         }
-        fn test(n: u32) -> u32 { return pixel_mean(n); }",
+        fn test(n: u32) -> u32 { return with_samples(n); }",
     )
     .expect("it is translated");
     assert_eq!(run(&program, &[20], steps(22)), Ok(vec![320]));

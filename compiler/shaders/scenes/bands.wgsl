@@ -47,8 +47,8 @@ struct Key {
 }
 
 fn is_nan(x: f32) -> bool { return false; }
-fn is_inf(x: f32) -> bool { return false; }
-fn length2_safe(v: vec2f) -> f32 { return 0.0; }
+fn is_finite(x: f32) -> bool { return false; }
+fn gradient_length(v: vec2f) -> f32 { return 0.0; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
 fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
 fn infinite_colour(pixel: vec2f, colour: vec3f) -> vec3f { return vec3f(); }
@@ -62,11 +62,15 @@ fn key_label(key: Key, place: f32, value: f32, anchor: f32) -> bool { return fal
 fn label_colour(colour: vec3f) -> vec3f { return vec3f(); }
 fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
 
-// Steps further than this many standard deviations away are complete to 1e-7.
-const REACH: f32 = 5.2;
+// Steps further than this many standard deviations away are taken as complete: they are to 1.1e-4, which is a third of a step
+// of 8 bits where a white stripe lies beside a black one, the worst that there is.
+const REACH: f32 = 3.7;
+// From this standard deviation on the Fourier series of a cycle of four stripes is taken, up to its third harmonic: what is
+// left is below 2/(5π) exp(-2π² 5² 0.48²/4²) = 1.1e-4.
+const SMOOTH: f32 = 0.48;
 // Share of the whole cycle that a standard deviation must be for the mean of all colours: the first harmonic of the stripes
-// is then below exp(-2π² 0.8²) = 3.3e-6.
-const UNRESOLVED: f32 = 0.8;
+// is then below 2/π exp(-2π² 0.65²) = 1.5e-4.
+const UNRESOLVED: f32 = 0.65;
 
 fn colour_entry(k: u32) -> vec3f {
     return settings.colours[k].rgb;
@@ -76,10 +80,27 @@ fn period() -> f32 {
     return select(settings.period, 1.0, settings.period <= 1e-37);
 }
 
-// The colour of stripe k, of any sign. Whole numbers, so that no rounding puts a multiple of `count` into the stripe below.
-fn stripe_colour(k: i32) -> vec3f {
-    let count = i32(max(settings.count, 1u));
-    let index = ((k % count) + count) % count;
+fn stripe_count() -> i32 {
+    return i32(max(settings.count, 1u));
+}
+
+// Whether four stripes are a whole number of cycles, so that all pictures of such counts are of four colours.
+fn repeats_in_four() -> bool {
+    return settings.count == 4u || settings.count <= 2u;
+}
+
+// Which of the colours stripe k has, of any sign. Whole numbers, so that no rounding puts a multiple of `count` into the
+// stripe below.
+fn colour_index(k: i32) -> i32 {
+    if repeats_in_four() {
+        return k & (stripe_count() - 1);
+    }
+    let rest = k % stripe_count();
+    return select(rest, rest + stripe_count(), rest < 0);
+}
+
+fn indexed_colour(index: i32) -> vec3f {
+    let count = stripe_count();
     let place = f32(index) / f32(max(count - 1, 1));
     switch settings.palette {
         case 1u: { return sequential_ramp(0.12 + 0.88 * place); }
@@ -88,56 +109,80 @@ fn stripe_colour(k: i32) -> vec3f {
         case 0u: {}
         default: { return mapped_colour(place); }
     }
-    switch index % 4 {
-        case 0: { return settings.color_1; }
-        case 1: { return settings.color_2; }
-        case 2: { return settings.color_3; }
-        default: { return settings.color_4; }
-    }
+    let is_odd = (index & 1) == 1;
+    let first = select(settings.color_1, settings.color_2, is_odd);
+    return select(first, select(settings.color_3, settings.color_4, is_odd), (index & 2) == 2);
 }
 
 fn mean_colour() -> vec3f {
-    let count = i32(max(settings.count, 1u));
     var sum = vec3f();
-    for (var k = 0; k < count; k++) {
-        sum += stripe_colour(k);
+    for (var k = 0; k < stripe_count(); k++) {
+        sum += indexed_colour(k);
     }
-    return sum / f32(count);
+    return sum / f32(stripe_count());
+}
+
+// Mean over a normal distribution around u of stripes whose colours repeat after four, by the Fourier series. Stripe j adds
+// its colour c_j times 1/4 + Σ_h 2/(πh) sin(πh/4) exp(-2π² h² spread²/16) cos(2πh (u - j - 1/2)/4).
+fn smooth_colour(u: f32, spread: f32) -> vec3f {
+    let c0 = indexed_colour(0);
+    let c1 = indexed_colour(colour_index(1));
+    let c2 = indexed_colour(colour_index(2));
+    let c3 = indexed_colour(colour_index(3));
+    let turns = 0.25 * u - 0.125;
+    let angle = 6.283185307179586 * (turns - floor(turns));
+    let c = cos(angle);
+    let s = sin(angle);
+    // 2π²/16 / log 2
+    let g = exp2(-1.7798536 * spread * spread);
+    let g4 = (g * g) * (g * g);
+    let first = 0.45015815807855303 * g;
+    let second = 0.3183098861837907 * g4 * (c * c - s * s);
+    let third = 0.15005271935951768 * g * (g4 * g4);
+    return 0.25 * ((c0 + c2) + (c1 + c3))
+        + (c0 - c2) * (c * (first + third * (4.0 * c * c - 3.0)))
+        + (c1 - c3) * (s * (first - third * (3.0 - 4.0 * s * s)))
+        + ((c0 + c2) - (c1 + c3)) * second;
 }
 
 // Mean over a normal distribution around u, in stripes, of standard deviation `spread`.
 fn filtered_colour(u: f32, spread: f32) -> vec3f {
-    if spread > UNRESOLVED * f32(settings.count) || abs(u) > 4194304.0 {
+    let is_far = abs(u) > 4194304.0;
+    if repeats_in_four() {
+        if (spread > SMOOTH) | is_far {
+            return smooth_colour(u, select(spread, 1e9, is_far));
+        }
+    } else if spread > UNRESOLVED * f32(settings.count) || is_far {
         return mean_colour();
     }
     // below the last digit of u there is no telling where in the sample an edge is
-    if spread <= 6e-8 * max(abs(u), 1.0) {
-        return stripe_colour(i32(floor(u)));
-    }
-    let first = i32(ceil(u - REACH * spread));
-    let last = i32(floor(u + REACH * spread));
-    var below = stripe_colour(first - 1);
+    let reach = select(REACH * spread, 0.0, spread <= 6e-8 * max(abs(u), 1.0));
+    let lowest = floor(u - reach);
+    let edges = floor(u + reach) - lowest;
+    var index = colour_index(i32(lowest));
+    var below = indexed_colour(index);
     var colour = below;
-    for (var k = first; k <= last; k++) {
-        let above = stripe_colour(k);
-        colour += (above - below) * normal_cdf((u - f32(k)) / spread);
+    // from the middle to the edge, in standard deviations
+    let step = 1.0 / spread;
+    var away = (u - lowest) * step;
+    for (var k = 0.0; k < edges; k += 1.0) {
+        away -= step;
+        index = select(index + 1, 0, index + 1 == stripe_count());
+        let above = indexed_colour(index);
+        colour += (above - below) * normal_cdf(away);
         below = above;
     }
     return colour;
 }
 
 fn colour_of(jet: vec3f, pixel: vec2f) -> vec3f {
-    if is_nan(jet.z) {
-        return undefined_colour(pixel);
-    }
-    if is_inf(jet.z) {
+    if !is_finite(jet.z) {
+        if is_nan(jet.z) {
+            return undefined_colour(pixel);
+        }
         return infinite_colour(pixel, mean_colour());
     }
-    var spread = 0.0;
-    if !(is_nan(jet.x) || is_nan(jet.y)) {
-        let rate = min(length2_safe(jet.xy), 1e37) * view.pixel;
-        spread = rate / period() * settings.footprint;
-    }
+    let spread = max(gradient_length(jet.xy), 0.0) * view.pixel / period() * settings.footprint;
     return filtered_colour((jet.z - settings.start) / period(), spread);
 }
 

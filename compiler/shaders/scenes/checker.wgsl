@@ -62,12 +62,10 @@ struct Key {
     border: f32,
 }
 
-fn is_nan(x: f32) -> bool { return false; }
-fn is_inf(x: f32) -> bool { return false; }
+fn is_finite(x: f32) -> bool { return false; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
 fn sample_window() -> f32 { return 0.0; }
-fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
-fn overflow_colour(pixel: vec2f) -> vec3f { return vec3f(); }
+fn undrawn_colour(value: vec2f, pixel: vec2f) -> vec3f { return vec3f(); }
 fn part_rates(jet: Jet) -> vec2f { return vec2f(); }
 fn polar_from_jet(jet: Jet) -> Polar { return Polar(); }
 fn mean_wheel_colour(turns: f32, window: f32, palette: u32) -> vec3f { return vec3f(); }
@@ -103,11 +101,8 @@ fn paper(jet: Jet, lightness: f32) -> vec3f {
 }
 
 fn colour_of(jet: Jet, pixel: vec2f) -> vec3f {
-    if is_inf(jet.value.x) || is_inf(jet.value.y) {
-        return overflow_colour(pixel);
-    }
-    if is_nan(jet.value.x) || is_nan(jet.value.y) {
-        return undefined_colour(pixel);
+    if !(is_finite(jet.value.x) & is_finite(jet.value.y)) {
+        return undrawn_colour(jet.value, pixel);
     }
     let w = clamp(jet.value / settings.unit, vec2f(-1e30), vec2f(1e30));
     let rates = part_rates(jet) / settings.unit;

@@ -82,11 +82,9 @@ struct Key {
     border: f32,
 }
 
-fn is_nan(x: f32) -> bool { return false; }
-fn is_inf(x: f32) -> bool { return false; }
+fn is_finite(x: f32) -> bool { return false; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
-fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
-fn overflow_colour(pixel: vec2f) -> vec3f { return vec3f(); }
+fn undrawn_colour(value: vec2f, pixel: vec2f) -> vec3f { return vec3f(); }
 fn polar_from_jet(jet: Jet) -> Polar { return Polar(); }
 fn domain_colour(polar: Polar, style: PhaseStyle) -> vec3f { return vec3f(); }
 fn phase_line_coverage(turns: f32, rate: f32, count: u32, width: f32) -> f32 { return 0.0; }
@@ -111,20 +109,20 @@ fn style() -> PhaseStyle {
 }
 
 fn colour_of(jet: Jet, pixel: vec2f) -> vec3f {
-    // One infinite part makes a complex number infinite, whatever the other part is (C99, Annex G).
-    if is_inf(jet.value.x) || is_inf(jet.value.y) {
-        return overflow_colour(pixel);
-    }
-    if is_nan(jet.value.x) || is_nan(jet.value.y) {
-        return undefined_colour(pixel);
+    if !(is_finite(jet.value.x) & is_finite(jet.value.y)) {
+        return undrawn_colour(jet.value, pixel);
     }
     let bits = (bitcast<u32>(jet.value.x) | bitcast<u32>(jet.value.y)) & 0x7fffffffu;
     if bits == 0u {
         return vec3f();
     }
     let polar = polar_from_jet(jet);
+    let colour = domain_colour(polar, style());
+    if settings.phase_lines == 0u {
+        return colour;
+    }
     let line = phase_line_coverage(polar.turns, polar.turn_rate, settings.phase_lines, settings.line_width);
-    return mix(domain_colour(polar, style()), settings.ink, 0.75 * line);
+    return mix(colour, settings.ink, 0.75 * line);
 }
 
 fn shade(pixel: vec2f) -> vec4f {

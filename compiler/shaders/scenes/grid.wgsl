@@ -71,17 +71,15 @@ struct Key {
     border: f32,
 }
 
-fn is_nan(x: f32) -> bool { return false; }
-fn is_inf(x: f32) -> bool { return false; }
+fn is_finite(x: f32) -> bool { return false; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
 fn sample_window() -> f32 { return 0.0; }
-fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
-fn overflow_colour(pixel: vec2f) -> vec3f { return vec3f(); }
+fn undrawn_colour(value: vec2f, pixel: vec2f) -> vec3f { return vec3f(); }
 fn part_rates(jet: Jet) -> vec2f { return vec2f(); }
 fn polar_from_jet(jet: Jet) -> Polar { return Polar(); }
 fn mean_wheel_colour(turns: f32, window: f32, palette: u32) -> vec3f { return vec3f(); }
 fn blend_extremes(colour: vec3f, octaves: f32, rate: f32, fade: f32) -> vec3f { return vec3f(); }
-fn line_coverage(offset: f32, width: f32, window: f32) -> f32 { return 0.0; }
+fn coverage_of_line(away: f32, width: f32) -> f32 { return 0.0; }
 fn octave_of_rate(rate: f32, apart: f32, base: f32) -> Octave { return Octave(); }
 fn octave_lines(whole: f32, part: f32, rate: f32, octave: Octave, base: f32, count: u32, width: f32) -> f32 { return 0.0; }
 fn octave_squares(u: f32, rate: f32, octave: Octave, base: f32) -> f32 { return 0.0; }
@@ -119,7 +117,7 @@ fn coordinates(jet: Jet, polar: Polar) -> Coordinates {
     }
     let rates = part_rates(jet);
     return Coordinates(
-        clamp(jet.value, vec2f(-1e30), vec2f(1e30)),
+        clamp(jet.value, vec2f(-1e27), vec2f(1e27)),
         rates,
         octave_of_rate(rates.x, settings.spacing, base),
         octave_of_rate(rates.y, settings.spacing, base),
@@ -138,10 +136,9 @@ fn cells(at: Coordinates) -> f32 {
 fn axis_coverage(at: Coordinates, crowd: f32) -> f32 {
     let width = 2.0 * settings.line_width;
     let away = min(abs(at.place) / max(at.rates, vec2f(1e-30)), vec2f(1e9));
-    let known = at.rates > vec2f(0.0);
     let covered = max(
-        select(0.0, line_coverage(away.x, width, sample_window()), known.x),
-        select(0.0, line_coverage(away.y, width, sample_window()), known.y),
+        select(0.0, coverage_of_line(away.x, width), at.rates.x > 0.0),
+        select(0.0, coverage_of_line(away.y, width), at.rates.y > 0.0),
     );
     return covered * (1.0 - smoothstep(0.02, 0.1, crowd));
 }
@@ -157,11 +154,8 @@ fn polar_lines(polar: Polar) -> f32 {
 }
 
 fn colour_of(jet: Jet, pixel: vec2f) -> vec3f {
-    if is_inf(jet.value.x) || is_inf(jet.value.y) {
-        return overflow_colour(pixel);
-    }
-    if is_nan(jet.value.x) || is_nan(jet.value.y) {
-        return undefined_colour(pixel);
+    if !(is_finite(jet.value.x) & is_finite(jet.value.y)) {
+        return undrawn_colour(jet.value, pixel);
     }
     let bits = (bitcast<u32>(jet.value.x) | bitcast<u32>(jet.value.y)) & 0x7fffffffu;
     if bits == 0u {

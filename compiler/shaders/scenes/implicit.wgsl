@@ -52,7 +52,6 @@ struct Jet2 {
 fn field_jet2(offset: vec2f) -> Jet2 { return Jet2(); }
 
 fn is_nan(x: f32) -> bool { return false; }
-fn is_inf(x: f32) -> bool { return false; }
 fn is_finite(x: f32) -> bool { return false; }
 fn magnify_tiny(x: f32) -> f32 { return 0.0; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
@@ -70,7 +69,14 @@ struct Model {
     along: f32,     // second derivative along the gradient
     across: f32,    // second derivative across it
     mixed: f32,
+    bend: Bend,
     known: bool,    // whether second derivatives are numbers
+}
+
+// The Hessian of f, turned as in the model.
+struct Bend {
+    least: f32,  // the lesser eigenvalue: how fast f bends towards 0 where it does so most
+    norm: f32,   // the spectral norm
 }
 
 // What is known of the nearest zero.
@@ -101,7 +107,7 @@ fn scaled_by(jet: Jet2, factor: f32) -> Jet2 {
 fn per_pixel(jet: Jet2) -> Jet2 {
     let h = view.pixel;
     var out = Jet2(jet.value, jet.dx * h, jet.dy * h, jet.dxx * h * h, jet.dxy * h * h, jet.dyy * h * h);
-    if !(is_finite(out.dxx) && is_finite(out.dxy) && is_finite(out.dyy)) {
+    if !is_finite(abs(out.dxx) + abs(out.dxy) + abs(out.dyy)) {
         out = Jet2(out.value, out.dx, out.dy, 0.0, 0.0, 0.0);
     }
     var size = max(abs(out.value), max(abs(out.dx), abs(out.dy)));
@@ -124,10 +130,14 @@ fn per_pixel(jet: Jet2) -> Jet2 {
     return scaled_by(out, 1.0 / max(size, 1e-30));
 }
 
-fn model_of(jet: Jet2) -> Model {
-    let unit = per_pixel(jet);
-    let side = select(1.0, -1.0, unit.value < 0.0);
-    let slope = length(vec2f(unit.dx, unit.dy));
+fn bend_of(unit: Jet2, side: f32) -> Bend {
+    let middle = 0.5 * side * (unit.dxx + unit.dyy);
+    let spread = length(vec2f(0.5 * (unit.dxx - unit.dyy), unit.dxy));
+    return Bend(middle - spread, abs(middle) + spread);
+}
+
+// The model of f, of its derivatives per pixel.
+fn model_of(jet: Jet2, unit: Jet2, slope: f32, side: f32, bend: Bend) -> Model {
     var n = vec2f(1.0, 0.0);
     if slope > 0.0 {
         n = vec2f(unit.dx, unit.dy) / slope;
@@ -136,19 +146,7 @@ fn model_of(jet: Jet2) -> Model {
     let to_n = vec2f(unit.dxx * n.x + unit.dxy * n.y, unit.dxy * n.x + unit.dyy * n.y);
     let to_t = vec2f(unit.dxx * t.x + unit.dxy * t.y, unit.dxy * t.x + unit.dyy * t.y);
     let known = is_finite(jet.dxx) && is_finite(jet.dxy) && is_finite(jet.dyy);
-    return Model(abs(unit.value), slope, side * dot(n, to_n), side * dot(t, to_t), side * dot(n, to_t), known);
-}
-
-// The lesser eigenvalue of the Hessian: how fast f bends towards 0 where it does so most.
-fn least_bend(m: Model) -> f32 {
-    let half = 0.5 * (m.along - m.across);
-    return 0.5 * (m.along + m.across) - length(vec2f(half, m.mixed));
-}
-
-// The spectral norm of the Hessian.
-fn norm(m: Model) -> f32 {
-    let half = 0.5 * (m.along - m.across);
-    return 0.5 * abs(m.along + m.across) + length(vec2f(half, m.mixed));
+    return Model(abs(unit.value), slope, side * dot(n, to_n), side * dot(t, to_t), side * dot(n, to_t), bend, known);
 }
 
 // Whether f bends in one direction only: a family of parallel curves, such as a multiple one.
@@ -173,19 +171,19 @@ fn distance_along(m: Model, newton: f32, h: f32, multiple: f32) -> f32 {
 
 // Where the gradient says nothing: the value over the bend towards 0, if there is one.
 fn critical(m: Model, reach: f32) -> Verdict {
-    let bend = least_bend(m);
+    let bend = m.bend.least;
     if bend < 0.0 {
         return Verdict(sqrt(2.0 * m.value / -bend), false, true);
     }
     if m.value == 0.0 {
-        return Verdict(0.0, bend > 0.0, norm(m) > 0.0);
+        return Verdict(0.0, bend > 0.0, m.bend.norm > 0.0);
     }
-    return Verdict(FAR, false, m.value > 0.5 * reach * reach * norm(m));
+    return Verdict(FAR, false, m.value > 0.5 * reach * reach * m.bend.norm);
 }
 
 fn verdict_of(m: Model) -> Verdict {
     let reach = 0.7071067811865476 * sample_window();
-    if m.slope * m.slope <= 1e-12 * m.value * norm(m) || m.slope == 0.0 {
+    if m.slope * m.slope <= 1e-12 * m.value * m.bend.norm || m.slope == 0.0 {
         return critical(m, reach);
     }
     let newton = m.value / m.slope;
@@ -193,11 +191,11 @@ fn verdict_of(m: Model) -> Verdict {
     let multiple = select(0.0, 1.0 / (1.0 - h), h < 1.0);
     let order = round(multiple);
     let distance = min(distance_along(m, newton, h, multiple), FAR);
-    let none_near = m.value > reach * m.slope + 0.5 * reach * reach * norm(m);
+    let none_near = m.value > reach * m.slope + 0.5 * reach * reach * m.bend.norm;
     // with a little room for rounding, as it holds with equality along the bisectors of a node
-    let simple = m.value * norm(m) <= 0.51 * m.slope * m.slope;
+    let simple = m.value * m.bend.norm <= 0.51 * m.slope * m.slope;
     let is_whole = h > 0.4 && order >= 2.0 && order <= MOST_MULTIPLE && abs(multiple - order) <= WHOLE * order;
-    let touches = is_whole && distance < FAR && (u32(order) & 1u) == 0u && h > 0.44 && least_bend(m) > -0.2 * norm(m);
+    let touches = is_whole && distance < FAR && (u32(order) & 1u) == 0u && h > 0.44 && m.bend.least > -0.2 * m.bend.norm;
     if none_near {
         return Verdict(distance, touches, true);
     }
@@ -207,9 +205,9 @@ fn verdict_of(m: Model) -> Verdict {
     if simple && !touches {
         return Verdict(distance, false, true);
     }
-    let both_signs = least_bend(m) < 0.0 && m.value <= -0.5 * least_bend(m) * reach * reach;
+    let both_signs = m.bend.least < 0.0 && m.value <= -0.5 * m.bend.least * reach * reach;
     if both_signs {
-        return Verdict(min(distance, sqrt(2.0 * m.value / -least_bend(m))), false, true);
+        return Verdict(min(distance, sqrt(2.0 * m.value / -m.bend.least)), false, true);
     }
     // 1/(1 - h) is -p at a pole of order p: f changes its sign there, but has no zero
     let pole = -1.0 / (1.0 - h);
@@ -218,7 +216,8 @@ fn verdict_of(m: Model) -> Verdict {
 }
 
 fn side_colour(value: f32) -> vec3f {
-    return mix(vec3f(0.93, 0.92, 0.89), select(settings.below, settings.above, value > 0.0), settings.fill);
+    let paper = vec3f(0.93, 0.92, 0.89);
+    return select(mix(paper, settings.below, settings.fill), mix(paper, settings.above, settings.fill), value > 0.0);
 }
 
 // Both sides by their shares of the sample; on a curve that f touches there is one side.
@@ -231,16 +230,25 @@ fn fill_colour(value: f32, verdict: Verdict) -> vec3f {
 }
 
 fn colour_of(jet: Jet2, pixel: vec2f) -> vec3f {
-    if is_nan(jet.value) {
-        return undefined_colour(pixel);
-    }
-    if is_inf(jet.value) {
+    if !is_finite(jet.value) {
+        if is_nan(jet.value) {
+            return undefined_colour(pixel);
+        }
         return infinite_colour(pixel, side_colour(jet.value));
     }
-    if !(is_finite(jet.dx) && is_finite(jet.dy)) {
+    if !(is_finite(jet.dx) & is_finite(jet.dy)) {
         return doubtful(side_colour(jet.value), pixel);
     }
-    let verdict = verdict_of(model_of(jet));
+    let unit = per_pixel(jet);
+    let side = select(1.0, -1.0, unit.value < 0.0);
+    let slope = length(vec2f(unit.dx, unit.dy));
+    let bend = bend_of(unit, side);
+    // most samples are so far from any zero of the model that neither line nor other side reaches them
+    let reach = 0.5 * max(settings.line_width + sample_window(), 1.4142135623730951 * sample_window());
+    if abs(unit.value) > reach * (slope + 0.5 * reach * bend.norm) {
+        return side_colour(jet.value);
+    }
+    let verdict = verdict_of(model_of(jet, unit, slope, side, bend));
     let line = line_coverage(verdict.distance, settings.line_width, sample_window());
     let fill = fill_colour(jet.value, verdict);
     if !verdict.settled {

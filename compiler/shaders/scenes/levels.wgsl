@@ -63,8 +63,7 @@ struct Key {
 // (∂f/∂x, ∂f/∂y, f) at the offset from the view's centre
 fn field_grad(offset: vec2f) -> vec3f { return vec3f(); }
 
-fn is_nan(x: f32) -> bool { return false; }
-fn length2_safe(v: vec2f) -> f32 { return 0.0; }
+fn gradient_length(v: vec2f) -> f32 { return 0.0; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
 fn contour_colour(value: f32, rate: f32, palette: u32, scale: f32, contours: Contours, ink: vec3f, pixel: vec2f) -> vec3f { return vec3f(); }
 fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key { return Key(); }
@@ -87,10 +86,7 @@ fn contours() -> Contours {
 }
 
 fn colour_of(jet: vec3f, pixel: vec2f) -> vec3f {
-    var rate = -1.0;
-    if !is_nan(jet.x) && !is_nan(jet.y) {
-        rate = min(length2_safe(jet.xy), 1e37) * view.pixel;
-    }
+    let rate = gradient_length(jet.xy) * view.pixel;
     return contour_colour(jet.z, rate, settings.palette, color_scale(), contours(), settings.ink, pixel);
 }
 

@@ -52,7 +52,7 @@ struct Key {
 }
 
 fn is_nan(x: f32) -> bool { return false; }
-fn is_inf(x: f32) -> bool { return false; }
+fn is_finite(x: f32) -> bool { return false; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
 fn sample_window() -> f32 { return 0.0; }
 fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
@@ -90,7 +90,7 @@ fn palette_colour(side: f32, far: f32) -> vec3f {
 // A logistic in log |f|: 1/2 at `modulus`, 3/4 at `fade_octaves` above it.
 fn far(octaves: f32) -> f32 {
     let x = 1.5849625 * (octaves - log2(max(settings.modulus, 1e-37))) / max(settings.fade_octaves, 1e-3);
-    return 1.0 / (1.0 + exp2(-clamp(x, -60.0, 60.0)));
+    return 1.0 / (1.0 + exp2(-x));
 }
 
 // Both signs are mixed by their shares of the sample where f changes its sign: at a zero, and at a pole, f is as far from
@@ -108,20 +108,17 @@ fn sign_colour(value: f32, octaves: f32, rate: f32) -> vec3f {
 
 fn colour_of(jet: vec3f, pixel: vec2f) -> vec3f {
     let value = jet.z;
-    if is_nan(value) {
-        return undefined_colour(pixel);
-    }
-    if is_inf(value) {
+    if !is_finite(value) {
+        if is_nan(value) {
+            return undefined_colour(pixel);
+        }
         return infinite_colour(pixel, palette_colour(sign(value), 1.0));
     }
     if (bitcast<u32>(value) & 0x7fffffffu) == 0u {
         return 0.5 * (palette_colour(1.0, 0.0) + palette_colour(-1.0, 0.0));
     }
     let parts = log2_parts(value);
-    var rate = 0.0;
-    if !(is_nan(jet.x) || is_nan(jet.y)) {
-        rate = octave_rate(value, jet.xy);
-    }
+    let rate = octave_rate(value, jet.xy);
     let base = f32(settings.divisions);
     let octave = octave_of_rate(rate, settings.spacing, base);
     // within a pixel of a zero or pole log |f| is not straight across a line's width, and lines without end crowd

@@ -89,12 +89,10 @@ struct Key {
     border: f32,
 }
 
-fn is_nan(x: f32) -> bool { return false; }
-fn is_inf(x: f32) -> bool { return false; }
+fn is_finite(x: f32) -> bool { return false; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
 fn sample_window() -> f32 { return 0.0; }
-fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
-fn overflow_colour(pixel: vec2f) -> vec3f { return vec3f(); }
+fn undrawn_colour(value: vec2f, pixel: vec2f) -> vec3f { return vec3f(); }
 fn polar_from_jet(jet: Jet) -> Polar { return Polar(); }
 fn domain_colour(polar: Polar, style: PhaseStyle) -> vec3f { return vec3f(); }
 fn phase_line_coverage(turns: f32, rate: f32, count: u32, width: f32) -> f32 { return 0.0; }
@@ -137,7 +135,11 @@ fn view_axes() -> Axes {
 
 // The sphere's own axes: turned about x, then y, then z.
 fn object_axes() -> Axes {
-    let a = (settings.rotation + vec3f(0.0, 0.0, settings.spin * view.time)) * DEGREE;
+    var a = settings.rotation * DEGREE;
+    // none by itself, so that the axes of a sphere at rest are seen to be constants
+    if settings.spin != 0.0 {
+        a.z += settings.spin * view.time * DEGREE;
+    }
     let c = cos(a);
     let s = sin(a);
     return Axes(
@@ -147,9 +149,8 @@ fn object_axes() -> Axes {
     );
 }
 
-// A vector of the view in the sphere's coordinates.
-fn object_from_view(v: vec3f, seen: Axes, object: Axes) -> vec3f {
-    let world = v.x * seen.x + v.y * seen.y + v.z * seen.z;
+// A direction of the world in the sphere's coordinates.
+fn object_from_world(world: vec3f, object: Axes) -> vec3f {
     return vec3f(dot(object.x, world), dot(object.y, world), dot(object.z, world));
 }
 
@@ -167,11 +168,11 @@ fn place_at(at: vec2f) -> Place {
     let seen = view_axes();
     let object = object_axes();
     let depth = sqrt(max(1.0 - dot(at, at), 1e-6));
-    return Place(
-        object_from_view(vec3f(at, depth), seen, object),
-        object_from_view(vec3f(1.0, 0.0, -at.x / depth), seen, object),
-        object_from_view(vec3f(0.0, 1.0, -at.y / depth), seen, object),
-    );
+    let right = object_from_world(seen.x, object);
+    let up = object_from_world(seen.y, object);
+    let back = object_from_world(seen.z, object);
+    let slope = at / depth;
+    return Place(at.x * right + at.y * up + depth * back, right - slope.x * back, up - slope.y * back);
 }
 
 // A coordinate of the chart around the nearer pole, with its derivatives by the picture's two directions.
@@ -197,6 +198,9 @@ fn chart_at(place: Place, side: f32) -> Chart {
 fn on_screen(jet: Jet, chart: Chart) -> Jet {
     let dz = 0.5 * (chart.right - turned(chart.up));
     let dzbar = 0.5 * (chart.right + turned(chart.up));
+    if all(jet.dzbar == vec2f()) {
+        return Jet(jet.value, product(jet.dz, dz), product(jet.dz, dzbar));
+    }
     let flip = vec2f(1.0, -1.0);
     return Jet(
         jet.value,
@@ -252,19 +256,20 @@ fn style() -> PhaseStyle {
 }
 
 fn colour_of(jet: Jet, pixel: vec2f) -> vec3f {
-    if is_inf(jet.value.x) || is_inf(jet.value.y) {
-        return overflow_colour(pixel);
-    }
-    if is_nan(jet.value.x) || is_nan(jet.value.y) {
-        return undefined_colour(pixel);
+    if !(is_finite(jet.value.x) & is_finite(jet.value.y)) {
+        return undrawn_colour(jet.value, pixel);
     }
     let bits = (bitcast<u32>(jet.value.x) | bitcast<u32>(jet.value.y)) & 0x7fffffffu;
     if bits == 0u {
         return vec3f();
     }
     let polar = polar_from_jet(jet);
+    let colour = domain_colour(polar, style());
+    if settings.phase_lines == 0u {
+        return colour;
+    }
     let line = phase_line_coverage(polar.turns, polar.turn_rate, settings.phase_lines, settings.line_width);
-    return mix(domain_colour(polar, style()), settings.ink, 0.75 * line);
+    return mix(colour, settings.ink, 0.75 * line);
 }
 
 // The colour under the light, which keeps its direction as seen by the viewer.
@@ -290,6 +295,10 @@ fn shade(pixel: vec2f) -> vec4f {
     let key = key_at(pixel, settings.key, 1.0);
     let at = offset_from_pixel(pixel) + view.center;
     let radius = length(at);
+    let covered = clamp(0.5 + (1.0 - radius) / (view.pixel * sample_window()), 0.0, 1.0);
+    if (covered <= 0.0) & !key.inside {
+        return layer_on(backdrop(pixel), Layer(KEY_BORDER, key.border));
+    }
     let inside = at * min(1.0, 0.9999995 / max(radius, 1e-6));
     let place = place_at(inside);
     var jet = seen_jet(place);
@@ -301,7 +310,6 @@ fn shade(pixel: vec2f) -> vec4f {
     if !key.inside {
         let lined = mix(colour, settings.ink, settings.graticule_opacity * graticule_coverage(place));
         let normal = vec3f(inside, sqrt(max(1.0 - dot(inside, inside), 0.0)));
-        let covered = clamp(0.5 + (1.0 - radius) / (view.pixel * sample_window()), 0.0, 1.0);
         picture = layer_on(backdrop(pixel), Layer(lit(lined, normal), covered));
     }
     return layer_on(picture, Layer(KEY_BORDER, key.border));

@@ -37,8 +37,9 @@ fn oklch_to_linear(lightness: f32, chroma: f32, hue: f32) -> vec3f {
 // side keeps one hue; the chroma stays inside the sRGB gamut.
 fn diverging_ramp(t: f32) -> vec3f {
     let size = min(abs(t), 1.0);
-    let hue = select(0.075, 0.711, t < 0.0);
-    return oklch_to_linear(0.972 - 0.522 * size, size * (0.46 - 0.31 * size), hue);
+    // cosine and sine of hues of 0.075 and 0.711 turns
+    let hue = select(vec2f(0.8910065242, 0.4539904997), vec2f(-0.2425992293, -0.9701265914), t < 0.0);
+    return oklab_to_linear(vec3f(0.972 - 0.522 * size, size * (0.46 - 0.31 * size) * hue));
 }
 
 // Indigo through magenta and orange to cream for t in [0, 1], with OKLab lightness linear in t.

@@ -24,17 +24,18 @@ fn shade(pixel: vec2f) -> vec4f { return vec4f(); }
 // Shared: linear light to sRGB.
 fn srgb_encode(linear: vec3f) -> vec3f { return vec3f(); }
 
-// Adds some samples of a regular grid over the pixel whose top-left corner is `corner`, one after the other.
-fn with_samples(before: vec4f, corner: vec2f, first: u32, end: u32) -> vec4f {
-    let count = max(view.samples, 1u);
-    let step = 1.0 / f32(count);
-    var place = vec2u(first % count, first / count);
+// Adds `many` samples of a regular grid over the pixel whose top-left corner is `corner`, one after the other, from
+// the one in column and row `place` on.
+fn with_samples(before: vec4f, corner: vec2f, place: vec2f, many: u32) -> vec4f {
+    let count = f32(max(view.samples, 1u));
+    let step = 1.0 / count;
+    var at = place + 0.5;
     var sum = before;
-    for (var k = first; k < end; k++) {
-        sum += shade(corner + (vec2f(place) + 0.5) * step);
-        place.x++;
-        if place.x == count {
-            place = vec2u(0u, place.y + 1u);
+    for (var k = many; k > 0u; k--) {
+        sum += shade(corner + at * step);
+        at.x += 1.0;
+        if at.x > count {
+            at = vec2f(0.5, at.y + 1.0);
         }
     }
     return sum;
@@ -46,13 +47,8 @@ fn sample_count() -> u32 {
     return count * count;
 }
 
-fn mean_of(sum: vec4f) -> vec4f {
-    let step = 1.0 / f32(max(view.samples, 1u));
-    return sum * (step * step);
-}
-
-fn pixel_mean(corner: vec2f) -> vec4f {
-    return mean_of(with_samples(vec4f(), corner, 0u, sample_count()));
+fn pixel_sum(corner: vec2f) -> vec4f {
+    return with_samples(vec4f(), corner, vec2f(), sample_count());
 }
 
 // A threshold in (0, 1), evenly spread over neighbouring pixels: the rank-1 lattice of the plastic number ρ,
@@ -63,19 +59,21 @@ fn dither_threshold(pixel: vec2u) -> f32 {
     return (f32(lattice >> 16u) + 0.5) / 65536.0;
 }
 
-// A mean as a displayable colour, not premultiplied, to be rounded to 8 bits by the caller. A value that 8 bits hold
-// exactly stays as it is.
-fn encoded(mean: vec4f, corner: vec2f) -> vec4f {
-    let alpha = clamp(mean.a, 0.0, 1.0);
-    let encoded = srgb_encode(clamp(mean.rgb / max(alpha, 1e-6), vec3f(0.0), vec3f(1.0)));
+// The mean of samples as a displayable colour, not premultiplied, to be held within 0..1 and rounded to 8 bits by what
+// takes it. A value that 8 bits hold exactly stays as it is.
+fn encoded(sum: vec4f, corner: vec2f) -> vec4f {
+    let many = f32(sample_count());
+    let opaque = clamp(sum.a, 1e-6 * many, many);
+    let alpha = sum.a / many;
+    let encoded = srgb_encode(clamp(sum.rgb * (1.0 / opaque), vec3f(0.0), vec3f(1.0)));
     let noise = (dither_threshold(vec2u(corner)) - 0.5) / 255.0;
-    return vec4f(clamp(encoded + noise, vec3f(0.0), vec3f(1.0)), alpha);
+    return vec4f(encoded + noise, alpha);
 }
 
 // The displayable colour of a pixel of this tile.
 fn encoded_pixel(local: vec2u) -> vec4f {
     let corner = vec2f(local) + view.tile;
-    return encoded(pixel_mean(corner), corner);
+    return encoded(pixel_sum(corner), corner);
 }
 
 // One triangle that covers the target.
@@ -104,7 +102,7 @@ fn linear_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
         return;
     }
-    store(pixel_at(id.xy), pixel_mean(vec2f(id.xy) + view.tile));
+    store(pixel_at(id.xy), pixel_sum(vec2f(id.xy) + view.tile) / f32(sample_count()));
 }
 
 // Pixels are four words apart. Behind the last one are three words: whether a sum has gone wrong, the first sample
@@ -116,7 +114,11 @@ fn sum_main(@builtin(global_invocation_id) id: vec3u) {
     }
     let at = pixel_at(id.xy);
     let behind = 4u * view.tile_size.x * view.tile_size.y;
-    store(at, with_samples(stored(at), vec2f(id.xy) + view.tile, image[behind + 1u], image[behind + 2u]));
+    let first = image[behind + 1u];
+    let count = max(view.samples, 1u);
+    let place = vec2f(vec2u(first % count, first / count));
+    let many = max(image[behind + 2u], first) - first;
+    store(at, with_samples(stored(at), vec2f(id.xy) + view.tile, place, many));
     if loops_end_early() {
         image[behind] = 1u;
     }
@@ -128,7 +130,7 @@ fn encode_main(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let at = pixel_at(id.xy);
-    image[at] = pack4x8unorm(encoded(mean_of(stored(at)), vec2f(id.xy) + view.tile));
+    image[at] = pack4x8unorm(encoded(stored(at), vec2f(id.xy) + view.tile));
 }
 
 // Place in `image` of a pixel of this tile, of four words.

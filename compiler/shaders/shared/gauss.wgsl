@@ -1,11 +1,8 @@
 // The Gaussian footprint of a pixel.
 
-// The normal distribution's Φ(x) = (1 + erf(x/√2))/2. The error function is Abramowitz and Stegun, Handbook of
-// Mathematical Functions, formula 7.1.26, exact to 1.5e-7; Φ is exact to 3e-7 with the rounding of float32.
+// The normal distribution's Φ(x) = (1 + erf(x/√2))/2 for |x| ≤ 8, as a logistic function of an odd polynomial, whose
+// coefficients are fitted: exact to 2e-5 everywhere, which is less than a tenth of a step of 8 bits.
 fn normal_cdf(x: f32) -> f32 {
-    let s = min(abs(x) * 0.7071067811865476, 9.0);
-    let t = 1.0 / (1.0 + 0.3275911 * s);
-    let tail = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
-    let complement = 0.5 * tail * exp(-s * s);
-    return select(complement, 1.0 - complement, x >= 0.0);
+    let q = x * x;
+    return 1.0 / (1.0 + exp2(-x * (2.30172713 + q * (0.106177323 - q * 0.000911226628))));
 }

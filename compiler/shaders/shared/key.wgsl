@@ -12,7 +12,8 @@ struct Key {
 // `side`: height of the frame as a part of the picture's shorter side, 0 for none; `aspect`: width over height.
 fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key {
     let height = side * min(view.size.x, view.size.y);
-    if height < 4.0 {
+    // a side of 0 by itself, so that compilers see that there is no key
+    if side <= 0.0 || height < 4.0 {
         return Key(vec2f(), vec2f(1.0), false, 0.0);
     }
     // whole pixels, so that text is sharp
@@ -31,6 +32,9 @@ fn key_jet(key: Key, reach: f32) -> Jet {
 
 // A picture with the key's border on it.
 fn with_key_border(colour: vec3f, key: Key) -> vec3f {
+    if key.border <= 0.0 {
+        return colour;
+    }
     return mix(colour, vec3f(0.01), key.border);
 }
 

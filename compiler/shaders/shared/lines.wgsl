@@ -18,9 +18,27 @@ fn offset_from_integer(u: f32) -> f32 {
 fn line_train(u: f32, duty: f32, window: f32) -> f32 {
     let part = clamp(duty, 0.0, 1.0);
     let w = clamp(window, 1e-20, 1.0);
-    let y = offset_from_integer(u);
-    let covered = line_coverage(y, part, w) + line_coverage(y - 1.0, part, w) + line_coverage(y + 1.0, part, w);
-    return clamp(covered, 0.0, 1.0);
+    return overlap_of_lines(abs(offset_from_integer(u)), 1.0, part, w) / w;
+}
+
+// Length of a window's overlap with lines that are `apart` from one another. Neither is wider than that; `away`, at most
+// half of it, is how far the nearest line is from the window's middle.
+fn overlap_of_lines(away: f32, apart: f32, width: f32, window: f32) -> f32 {
+    let reach = 0.5 * (width + window);
+    return clamp(reach - away, 0.0, min(width, window)) + max(reach + away - apart, 0.0);
+}
+
+// Coverage of a sample by lines of constant width, `apart` pixels from one another and so 1/`apart` a pixel, `away` pixels
+// from the nearest.
+fn coverage_of_lines(away: f32, apart: f32, per_pixel: f32, width: f32) -> f32 {
+    let overlap = overlap_of_lines(away, apart, min(width, apart), min(sample_window(), apart));
+    return overlap * max(samples_per_pixel(), per_pixel);
+}
+
+// Coverage of a sample by one line.
+fn coverage_of_line(away: f32, width: f32) -> f32 {
+    let window = sample_window();
+    return clamp(0.5 * (width + window) - away, 0.0, min(width, window)) * samples_per_pixel();
 }
 
 // The sawtooth u - floor(u). `window` in periods; from one period on the result is the mean, 1/2.
@@ -46,9 +64,15 @@ fn hatch(pixel: vec2f, slope: f32, period: f32, duty: f32, window: f32) -> f32 {
 }
 
 // The square wave that is 1 on [2k, 2k + 1) and -1 on [2k + 1, 2k + 2). `window` in units of u; from two on the result is
-// the mean, 0.
+// the mean, 0. A window with one edge in it has the mean 2d/w, where d is from the edge to its middle; one with two has
+// no more than 2/w - 1.
 fn square_train(u: f32, window: f32) -> f32 {
-    return 2.0 * line_train(0.5 * u - 0.25, 0.5, 0.5 * window) - 1.0;
+    let place = 0.5 * u + 0.25;
+    let from_edge = 0.5 - 2.0 * abs(place - floor(place) - 0.5);
+    let per_window = 2.0 / max(window, 1e-20);
+    let most = clamp(per_window - 1.0, 0.0, 1.0);
+    // an edge itself is -1 where there is no window; the last term is nothing elsewhere
+    return clamp(from_edge * per_window - 2e-20 * per_window, -most, most);
 }
 
 // base^n for a base of 1 or more and |n| up to 127, by squaring: exact as long as the result is a whole number below 2²⁴.
@@ -70,6 +94,16 @@ fn over_power(u: f32, base: f32, n: i32) -> f32 {
     return select(u * power, u / power, n > 0);
 }
 
+// base^n, exact where base is a power of two, and where base^|n| is a whole number below 2²⁴ and n ≥ 0.
+fn base_power(base: f32, n: i32) -> f32 {
+    let bits = bitcast<u32>(base);
+    if (bits & 0x007fffffu) == 0u {
+        let exponent = clamp((i32(bits >> 23u) - 127) * n, -126, 127);
+        return bitcast<f32>(u32(exponent + 127) << 23u);
+    }
+    return over_power(1.0, base, -n);
+}
+
 // A family of line spacings base^n, each a whole multiple of the one below. Of those spacings that are at least `apart`
 // pixels on the screen, the finest is base^finest; it is base^blend times as far apart as it needs, 0 ≤ blend < 1.
 struct Octave {
@@ -79,32 +113,46 @@ struct Octave {
 
 // `rate`: change of the coordinate per pixel.
 fn octave_of_rate(rate: f32, apart: f32, base: f32) -> Octave {
-    let place = log2(max(rate * apart, 1e-9)) / log2(base);
+    let place = log2(clamp(rate * apart, 1e-9, 1e37)) / log2(base);
     let finest = ceil(place);
     return Octave(i32(finest), finest - place);
 }
 
 // Whether f32 tells places within a period apart, u periods from 0: 1 as long as it has 128 of them, 0 from 32 on.
 fn resolved(u: f32) -> f32 {
-    return select(0.0, 1.0 - smoothstep(131072.0, 524288.0, u), u < 524288.0);
+    return select(0.0, 1.0 - smoothstep(RESOLVED, 4.0 * RESOLVED, u), u < 4.0 * RESOLVED);
 }
+
+const RESOLVED: f32 = 131072.0;
 
 // Lines of constant width at the multiples of base^n of a coordinate u = whole + part, for all n from `finest` up. The
 // finest ones fade in as the picture is magnified, over `count` octaves (at least two): a line's weight depends on how far
 // it is from its equals on the screen, and is continuous when the finest octave changes.
 fn octave_lines(whole: f32, part: f32, rate: f32, octave: Octave, base: f32, count: u32, width: f32) -> f32 {
-    let steps = f32(max(count, 2u)) - 1.0;
+    if rate <= 0.0 {
+        return 0.0;
+    }
+    let step = 1.0 / (f32(max(count, 2u)) - 1.0);
+    var scale = base_power(base, -octave.finest);
+    var per_pixel = max(rate * scale, 1e-30);
+    var apart = 1.0 / per_pixel;
+    let is_resolved = max(abs(whole), abs(part)) * scale < RESOLVED;
     var covered = 0.0;
     for (var j = 0u; j < max(count, 2u); j++) {
-        let n = octave.finest + i32(j);
-        let coarse = over_power(whole, base, n);
-        let fine = over_power(part, base, n);
-        let u = (coarse - floor(coarse)) + fine;
-        let per_pixel = over_power(rate, base, n);
-        let weight = resolved(max(abs(coarse), abs(fine))) * min((f32(j) + octave.blend) / steps, 1.0);
-        if weight > 0.0 {
-            covered = max(covered, weight * line_train(u, min(per_pixel * width, 1.0), per_pixel * sample_window()));
+        var u = part * scale;
+        if whole != 0.0 {
+            let coarse = whole * scale;
+            u += coarse - floor(coarse);
         }
+        var weight = min((f32(j) + octave.blend) * step, 1.0);
+        if !is_resolved {
+            weight *= resolved(max(abs(whole), abs(part)) * scale);
+        }
+        let away = abs(offset_from_integer(u)) * apart;
+        covered = max(covered, weight * coverage_of_lines(away, apart, per_pixel, width));
+        scale /= base;
+        per_pixel /= base;
+        apart *= base;
     }
     return covered;
 }
@@ -112,12 +160,14 @@ fn octave_lines(whole: f32, part: f32, rate: f32, octave: Octave, base: f32, cou
 // Lines of constant width at the integers of u, which changes by `rate` per pixel. Where they crowd they thin out to an even
 // tone, and they end where f32 no longer resolves the place between two of them.
 fn even_lines(u: f32, rate: f32, width: f32) -> f32 {
-    if abs(u) > 4194304.0 {
+    if (abs(u) > 4194304.0) | (rate <= 0.0) {
         return 0.0;
     }
-    let duty = min(rate * width, 1.0);
-    let dimming = min(1.0, CROWDED / max(rate * width, 1e-20));
-    return line_train(u, duty, rate * sample_window()) * dimming * (1.0 - smoothstep(0.5, 4.0, rate));
+    let per_pixel = clamp(rate, 1e-30, 1e30);
+    let apart = 1.0 / per_pixel;
+    let dimming = min(CROWDED / max(width, 1e-20) * apart, 1.0);
+    let covered = coverage_of_lines(abs(offset_from_integer(u)) * apart, apart, per_pixel, width);
+    return covered * dimming * (1.0 - smoothstep(0.5, 4.0, rate));
 }
 
 // Lines may darken an area by no more than this on average, however dense they are.
@@ -125,15 +175,18 @@ const CROWDED: f32 = 0.34;
 
 // Squares of both signs along one coordinate, at two octaves of side, the finer one as strong as it has faded in.
 fn octave_squares(u: f32, rate: f32, octave: Octave, base: f32) -> f32 {
-    return octave.blend * squares_of_side(u, rate, base, octave.finest)
-        + (1.0 - octave.blend) * squares_of_side(u, rate, base, octave.finest + 1);
+    let place = u * base_power(base, -octave.finest);
+    let window = rate * base_power(base, -octave.finest) * sample_window();
+    let fine = square_train(place, window);
+    let coarse = square_train(place / base, window / base);
+    if abs(place) < RESOLVED {
+        return mix(coarse, fine, octave.blend);
+    }
+    return (1.0 - octave.blend) * known_part(coarse, place / base) + octave.blend * known_part(fine, place);
 }
 
-fn squares_of_side(u: f32, rate: f32, base: f32, n: i32) -> f32 {
-    let place = over_power(u, base, n);
+// A wave's value as far as its place is known.
+fn known_part(value: f32, place: f32) -> f32 {
     let known = resolved(abs(place));
-    if known == 0.0 {
-        return 0.0;
-    }
-    return known * square_train(place, over_power(rate, base, n) * sample_window());
+    return select(known * value, 0.0, known == 0.0);
 }

@@ -12,13 +12,30 @@ fn is_finite(x: f32) -> bool {
     return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
 }
 
-// Euclidean length without overflow or underflow; infinite where a component is. No NaN may come in.
+// Euclidean length without overflow or underflow; infinite where a component is. No NaN may come in. Squares are of
+// v over its largest component only where they would leave the range.
 fn length2_safe(v: vec2f) -> f32 {
+    let squared = dot(v, v);
+    if (squared > 1e-30) & (squared < 1e37) {
+        return sqrt(squared);
+    }
     let size = max(abs(v.x), abs(v.y));
     if size == 0.0 || is_inf(size) {
         return size;
     }
     return size * length(v / size);
+}
+
+// Length of a gradient, at most 1e37; -1 where it is not known (NaN).
+fn gradient_length(v: vec2f) -> f32 {
+    let squared = dot(v, v);
+    if (squared > 1e-30) & (squared < 1e37) {
+        return sqrt(squared);
+    }
+    if is_nan(v.x) || is_nan(v.y) {
+        return -1.0;
+    }
+    return min(length2_safe(v), 1e37);
 }
 
 fn length3_safe(v: vec3f) -> f32 {

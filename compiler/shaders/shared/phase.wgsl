@@ -20,18 +20,20 @@ fn wheel_colour(turns: f32, palette: u32) -> vec3f {
     }
 }
 
-// Mean colour of the wheel over a window in turns, at most a whole one. Over a whole turn the evenly spaced rule
-// is exact, so that unresolved hue is one calm grey.
+// Mean colour of the wheel over a window in turns, at most a whole one: of its parts of at most 0.04 turns in their middles, up to
+// eight of them. Over a whole turn the evenly spaced rule is exact, so that unresolved hue is one calm grey.
 fn mean_wheel_colour(turns: f32, window: f32, palette: u32) -> vec3f {
     if window < 0.04 {
         return wheel_colour(turns, palette);
     }
     let w = min(window, 1.0);
+    let parts = select(select(8.0, 4.0, w < 0.16), 2.0, w < 0.08);
+    let share = 1.0 / parts;
     var sum = vec3f();
-    for (var k = 0; k < 8; k++) {
-        sum += wheel_colour(turns + w * ((f32(k) + 0.5) / 8.0 - 0.5), palette);
+    for (var k = 0.5; k < parts; k += 1.0) {
+        sum += wheel_colour(turns + w * (k * share - 0.5), palette);
     }
-    return sum / 8.0;
+    return sum * share;
 }
 
 // Brightness of the rings, 1 at their lightest.
@@ -60,7 +62,7 @@ fn far_fade(octaves: f32, rate: f32, fade: f32) -> f32 {
     let steepness = 6.0 / max(fade, 1e-3);
     let spread = steepness * min(rate, 1e4) * sample_window() / 6.283185307179586;
     let x = steepness * (octaves - fade) * inverseSqrt(1.0 + spread * spread);
-    return 1.0 / (1.0 + exp2(-clamp(x, -60.0, 60.0)));
+    return 1.0 / (1.0 + exp2(-x));
 }
 
 // Zeros towards black and poles towards white, up to 88 %, so that rings and hue still show.

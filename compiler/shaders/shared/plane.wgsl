@@ -23,6 +23,11 @@ fn sample_window() -> f32 {
     return 1.0 / f32(max(view.samples, 1u));
 }
 
+// Samples in a row of a pixel: one over the window.
+fn samples_per_pixel() -> f32 {
+    return f32(max(view.samples, 1u));
+}
+
 // An undefined value (NaN): a quiet grey hatch.
 fn undefined_colour(pixel: vec2f) -> vec3f {
     return mix(vec3f(0.60), vec3f(0.47), hatch(pixel, 1.0, 7.0, 0.3, sample_window()));
@@ -31,6 +36,14 @@ fn undefined_colour(pixel: vec2f) -> vec3f {
 // A complex value that is too large for f32: white with faint stripes.
 fn overflow_colour(pixel: vec2f) -> vec3f {
     return mix(vec3f(1.0), vec3f(0.84), hatch(pixel, -1.0, 7.0, 0.25, sample_window()));
+}
+
+// A complex value that is no number: one infinite part makes it infinite, whatever the other part is (C99, Annex G).
+fn undrawn_colour(value: vec2f, pixel: vec2f) -> vec3f {
+    if is_inf(value.x) || is_inf(value.y) {
+        return overflow_colour(pixel);
+    }
+    return undefined_colour(pixel);
 }
 
 // An infinite real value, by the colour that large values have: with stripes of the other slope than NaN.

@@ -24,14 +24,27 @@ fn value_colour(palette: u32, value: f32, scale: f32) -> vec3f {
     return palette_colour(palette, saturate_value(value, scale));
 }
 
-// Mean colour where the value runs linearly over value ± reach. The part beyond ±8 scales has the end colours; the rest
-// is integrated by the four-point Gauss rule.
+// Mean colour where the value runs linearly over value ± reach. In units of `scale`: below 0.05 it is the colour in the
+// middle, which is off by less than half a step of 8 bits, but where a map has a kink at 0; up to 0.15 two points: the middles of both
+// sides of 0, if that is inside, else those of Gauss.
 fn mean_value_colour(palette: u32, value: f32, reach: f32, scale: f32) -> vec3f {
-    if reach < 0.05 * scale {
-        return value_colour(palette, value, scale);
-    }
     let x = clamp(value / scale, -1e18, 1e18);
-    let r = clamp(reach / scale, 0.01, 1e18);
+    let r = reach / scale;
+    if r < 0.05 {
+        return value_colour(palette, x, 1.0);
+    }
+    if r < 0.15 {
+        let is_split = abs(x) < r;
+        let arm = select(0.5773502691896258, 0.5, is_split) * r;
+        let middle = select(x, 0.5 * x, is_split);
+        let share = select(0.5, 0.5 + 0.5 * x / r, is_split);
+        return mix(value_colour(palette, middle - arm, 1.0), value_colour(palette, middle + arm, 1.0), share);
+    }
+    return coarse_mean_colour(palette, x, min(r, 1e18));
+}
+
+// The part beyond ±8 has the end colours; the rest is integrated by the four-point Gauss rule.
+fn coarse_mean_colour(palette: u32, x: f32, r: f32) -> vec3f {
     let low = clamp(x - r, -8.0, 8.0);
     let high = clamp(x + r, -8.0, 8.0);
     let below = clamp((-8.0 - (x - r)) / (2.0 * r), 0.0, 1.0);
@@ -44,29 +57,20 @@ fn mean_value_colour(palette: u32, value: f32, reach: f32, scale: f32) -> vec3f 
         let weight = select(0.3260725774312731, 0.1739274225687269, k > 1u);
         inner += weight * value_colour(palette, middle + node * arm, 1.0);
     }
+    if below + above == 0.0 {
+        return inner;
+    }
     return below * palette_colour(palette, -1.0) + above * palette_colour(palette, 1.0) + max(1.0 - below - above, 0.0) * inner;
 }
 
-// Coverage by lines at the multiples of `spacing`. `rate` is the change of value per pixel.
-fn level_lines(value: f32, rate: f32, spacing: f32, width: f32) -> f32 {
-    let u = value / spacing;
-    let lines_per_pixel = min(rate / spacing, 1e9);
-    let duty = min(lines_per_pixel * width, 1.0);
-    let dimming = min(1.0, DENSEST / max(lines_per_pixel * width, 1e-20));
-    // Past 2²² spacings f32 no longer resolves the place between two lines.
-    if abs(u) > 4194304.0 || is_inf(u) {
-        return duty * dimming;
+// Coverage by lines at the integers of u, `per_pixel` to a pixel and `apart` = 1/`per_pixel` pixels from one another.
+fn level_lines(u: f32, per_pixel: f32, apart: f32, width: f32) -> f32 {
+    let dimming = min(DENSEST / max(width, 1e-20) * apart, 1.0);
+    // past 2²² spacings f32 no longer resolves the place between two lines
+    if abs(u) > 4194304.0 {
+        return min(per_pixel * width, 1.0) * dimming;
     }
-    return line_train(u, duty, lines_per_pixel * sample_window()) * dimming;
-}
-
-// Coverage by the line f = 0. It fades where several level lines share a pixel: a zero cannot be told from a pole there.
-fn zero_line(value: f32, rate: f32, spacing: f32, width: f32) -> f32 {
-    let lines_per_pixel = rate / spacing;
-    if rate <= 0.0 || lines_per_pixel > 4.0 {
-        return 0.0;
-    }
-    return line_coverage(pixels_away(abs(value), rate), width, sample_window()) * (1.0 - smoothstep(1.0, 4.0, lines_per_pixel));
+    return coverage_of_lines(abs(offset_from_integer(u)) * apart, apart, per_pixel, width) * dimming;
 }
 
 // Contour lines of a value.
@@ -78,24 +82,33 @@ struct Contours {
     major: u32,       // every how many lines one is stronger; 0: none
 }
 
-// All lines together, as opacity of the ink.
+// All lines together, as opacity of the ink. The line f = 0 fades where several level lines share a pixel: a zero cannot
+// be told from a pole there.
 fn contour_opacity(value: f32, rate: f32, contours: Contours) -> f32 {
-    var opacity = contours.opacity * level_lines(value, rate, contours.spacing, contours.width);
+    if rate <= 0.0 {
+        return 0.0;
+    }
+    let u = value / contours.spacing;
+    let per_pixel = clamp(rate / contours.spacing, 1e-30, 1e9);
+    let apart = 1.0 / per_pixel;
+    var opacity = contours.opacity * level_lines(u, per_pixel, apart, contours.width);
     if contours.major > 0u {
-        let strong = level_lines(value, rate, contours.spacing * f32(contours.major), 1.5 * contours.width);
+        let every = f32(contours.major);
+        let strong = level_lines(u / every, per_pixel / every, apart * every, 1.5 * contours.width);
         opacity = max(opacity, min(1.5 * contours.opacity, 1.0) * strong);
     }
-    return max(opacity, zero_line(value, rate, contours.spacing, contours.zero_width));
+    let zero = coverage_of_line(min(abs(u) * apart, 1e9), contours.zero_width);
+    return max(opacity, zero * (1.0 - smoothstep(1.0, 4.0, per_pixel)));
 }
 
 // A picture of a value by colour and lines: undefined values hatched, infinite ones in the end colours and hatched the
 // other way. `rate` is the change of value per pixel, negative where it is not
 // known.
 fn contour_colour(value: f32, rate: f32, palette: u32, scale: f32, contours: Contours, ink: vec3f, pixel: vec2f) -> vec3f {
-    if is_nan(value) {
-        return undefined_colour(pixel);
-    }
-    if is_inf(value) {
+    if !is_finite(value) {
+        if is_nan(value) {
+            return undefined_colour(pixel);
+        }
         return infinite_colour(pixel, palette_colour(palette, sign(value)));
     }
     if rate < 0.0 {

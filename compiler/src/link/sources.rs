@@ -2,9 +2,10 @@
 
 use std::sync::OnceLock;
 
-use naga::Module;
+use naga::{Function, Module};
 
-use crate::lower::{Exactness, Format, Tier};
+use super::{Linker, Provider};
+use crate::lower::{Exactness, Format, LowerError, Precision, Tier};
 
 /// Functions on numbers, as one text.
 const MATH: &str = concat!(
@@ -25,6 +26,12 @@ const MATH: &str = concat!(
     include_str!("../../shaders/math/rational.wgsl"),
     include_str!("../../shaders/math/bessel.wgsl"),
     include_str!("../../shaders/math/erf.wgsl"),
+);
+
+/// Functions of the tier `fast`, where it has others than these.
+const FAST: &str = concat!(
+    include_str!("../../shaders/fast/real.wgsl"),
+    include_str!("../../shaders/fast/complex.wgsl"),
 );
 
 /// Functions on wide numbers, in terms of the arithmetic of a format, as one text.
@@ -122,6 +129,7 @@ pub fn shared_module() -> &'static Module {
 pub fn number_module(tier: Tier) -> &'static Module {
     static DOUBLES: OnceLock<Module> = OnceLock::new();
     match tier.precision.format() {
+        Format::Single if tier.precision == Precision::Fast => fast_module(),
         Format::Single => math_module(),
         Format::Pair => pair_module(tier.exactness),
         Format::Double => DOUBLES.get_or_init(|| parse_wgsl(DOUBLE).0),
@@ -145,6 +153,40 @@ pub fn math_module() -> &'static Module {
     MODULE.get_or_init(|| parse_wgsl(MATH).0)
 }
 
+/// The library of the tier `fast`: that of single precision with some functions in a shorter form.
+fn fast_module() -> &'static Module {
+    static MODULE: OnceLock<Module> = OnceLock::new();
+    MODULE.get_or_init(|| {
+        let shorter = parse_wgsl(FAST).0;
+        let sources = vec![&shorter, math_module()];
+        let names = |module: &Module| -> Vec<String> {
+            let functions = module.functions.iter();
+            functions.filter_map(|(_, f)| f.name.clone()).collect()
+        };
+        let mut linker = Linker::new(sources);
+        for name in names(&shorter).into_iter().chain(names(math_module())) {
+            if linker.function(&name, &mut Whole).is_err() {
+                return Module::default();
+            }
+        }
+        linker.out
+    })
+}
+
+/// Fills no stub: libraries have none.
+struct Whole;
+
+impl Provider for Whole {
+    fn provide(
+        &mut self,
+        _: &str,
+        _: &Function,
+        _: &mut Linker,
+    ) -> Result<Option<Function>, LowerError> {
+        Ok(None)
+    }
+}
+
 impl Sources {
     /// All of them, with the numbers of a tier.
     #[must_use]
@@ -164,6 +206,7 @@ mod tests {
     fn every_text_parses() {
         for (name, text) in [
             ("math", MATH),
+            ("fast", FAST),
             ("double", DOUBLE),
             ("shared", SHARED),
             ("entry", ENTRY),

@@ -28,7 +28,7 @@ pub enum LoopKind {
 }
 
 /// The function of all scenes that takes the samples of a pixel (`shared/entry.wgsl`).
-const SAMPLING: &str = "pixel_mean";
+const SAMPLING: &str = "with_samples";
 
 impl LoopSite {
     pub(super) fn new(function: &naga::Function, span: naga::Span) -> Self {

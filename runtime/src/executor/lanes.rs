@@ -153,6 +153,18 @@ impl Mask {
         self.count = 0;
     }
 
+    /// Parts of the group, of so many chunks each, with a lane that runs.
+    pub fn parts(&self, chunks: u32) -> u64 {
+        let mut parts = 0;
+        let mut last = None;
+        for &c in self.chunks() {
+            let part = Some(c / chunks);
+            parts += u64::from(part != last);
+            last = part;
+        }
+        parts
+    }
+
     /// The chunks with a lane that runs.
     #[inline(always)]
     pub fn chunks(&self) -> &[u32] {

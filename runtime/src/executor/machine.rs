@@ -6,6 +6,7 @@ mod control;
 use std::sync::atomic::AtomicBool;
 
 use super::code::{Inst, Op};
+use super::cost::{Issued, WARP};
 use super::fault::Fault;
 use super::kernels::write;
 use super::lanes::{CHUNKS, Chunk, LANES, Mask, Slot, TRUE, WIDTH};
@@ -60,6 +61,8 @@ pub struct Machine<'p> {
     group_steps: u64,
     /// Of each loop, the group's steps since it was entered, and all of them.
     turns: Vec<Turns>,
+    /// What was issued, if that is counted.
+    issued: Option<Issued>,
 }
 
 /// How often a group has gone through a loop. No lane joins a loop that runs, so that those in it have all made every step
@@ -90,7 +93,19 @@ impl<'p> Machine<'p> {
             steps: vec![Chunk::ZERO; CHUNKS],
             group_steps: 0,
             turns: vec![Turns::default(); program.loops.len()],
+            issued: None,
         }
+    }
+
+    /// Counts from now on what is issued.
+    pub fn count_issued(&mut self) {
+        self.issued = Some(self.program.nothing_issued());
+    }
+
+    /// What was issued since it is counted.
+    #[must_use]
+    pub fn issued(&self) -> Option<&Issued> {
+        self.issued.as_ref()
     }
 
     /// Bytes of memory that the machine holds beside its buffers.
@@ -167,6 +182,9 @@ impl<'p> Machine<'p> {
         let program = self.program;
         let mut pc = 0;
         while let Some(inst) = program.code.get(pc) {
+            if let Some(issued) = &mut self.issued {
+                issued.0[pc] += self.mask.parts((WARP / WIDTH) as u32);
+            }
             pc += 1;
             match inst.op {
                 Op::If

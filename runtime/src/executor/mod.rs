@@ -5,6 +5,7 @@
 //! lanes at a time, with masks where lanes go different ways.
 
 mod code;
+mod cost;
 mod fault;
 mod float;
 mod integer;
@@ -20,6 +21,7 @@ mod shape;
 mod trace;
 mod translate;
 
+pub use cost::{Charge, Issued, Kind, WARP};
 pub use fault::{Fault, LoopKind, LoopSite};
 pub use machine::{Limits, MAX_FORMULA_TURNS, MAX_STEPS, MAX_TURNS, Machine};
 pub use painter::Painter;

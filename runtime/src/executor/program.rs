@@ -125,6 +125,10 @@ pub struct Program {
     pub(super) library: Vec<LibraryCall>,
     pub(super) sites: Vec<Site>,
     pub(super) loops: Vec<LoopSite>,
+    /// For each instruction, whose text it comes from: a place in `names`.
+    pub(super) owners: Vec<u32>,
+    /// Functions; the first is the one that is run.
+    pub(super) names: Vec<String>,
     /// The numbers of the uniform variables, and of storage of fixed size that is only read.
     pub inputs: Vec<Component>,
     /// The other storage buffers.

@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
+use pullback_compiler::lower::Precision;
 use pullback_runtime::difference::Bitmap;
+use pullback_runtime::executor::Kind;
 use pullback_runtime::{AdapterChoice, Error, Gpu, Metadata, Size, image_file};
-use pullback_tests::twins::{Measured, Plan, TWINS, measure};
+use pullback_tests::twins::{Count, Measured, Plan, TWINS, Twin, count, measure};
 
 /// Frame times and errors of pictures of every scene, and of a twin that was written by hand.
 #[derive(Parser)]
@@ -37,6 +39,12 @@ struct Options {
     /// what costs by leaving it out
     #[arg(long)]
     instead: Option<PathBuf>,
+    /// Counts instructions a pixel by the executor, instead of measuring times
+    #[arg(long)]
+    count: bool,
+    /// With `--count`, the functions that take the most
+    #[arg(long, default_value_t = 0)]
+    functions: usize,
     /// Where to write the pictures that are compared
     #[arg(long)]
     pictures: Option<PathBuf>,
@@ -65,6 +73,9 @@ fn main() -> ExitCode {
 }
 
 fn run(options: &Options) -> Result<(), Error> {
+    if options.count {
+        return counts(options);
+    }
     let gpu = Gpu::open(&options.adapter.parse::<AdapterChoice>().unwrap_or_default())?;
     println!("{}\n", gpu.adapter());
     println!(
@@ -97,6 +108,35 @@ fn run(options: &Options) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// Issue slots of a warp for each pixel, ours in `fast` and the twin's.
+fn counts(options: &Options) -> Result<(), Error> {
+    println!(
+        "| scene | fast / twin | program | slots | arithmetic | quotients | elementary | memory | flow | uniform |\n\
+         | --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+    );
+    let wanted = |t: &&Twin| t.scene.contains(&options.only);
+    for twin in TWINS.iter().filter(wanted) {
+        let both = count(twin, options.size, Precision::Fast)?;
+        let ratio = both[0].total() / both[1].total();
+        for (name, count) in ["fast", "twin"].iter().zip(&both) {
+            println!("{}", count_row(twin.scene, ratio, name, count));
+        }
+        for (name, slots) in both[0].functions().iter().take(options.functions) {
+            println!("{slots:10.1} {name}");
+        }
+    }
+    Ok(())
+}
+
+fn count_row(scene: &str, ratio: f64, name: &str, count: &Count) -> String {
+    let kinds = Kind::ALL.map(|kind| format!("{:.0}", count.of(kind)));
+    let total = count.total();
+    format!(
+        "| {scene} | {ratio:.2} | {name} | {total:.0} | {} |",
+        kinds.join(" | ")
+    )
 }
 
 fn row(scene: &str, formula: &str, measured: &Measured) -> String {

@@ -34,6 +34,7 @@ impl<'m> Translator<'m> {
     ) -> Result<(), Fault> {
         let floor = self.plans.floor(function);
         self.frame = Frame::new(floor);
+        let before = self.owned_by(function);
         let mut body = Body::new(function, &self.info[handle], Some(handle))?;
         for argument in &function.arguments {
             let parts = self.argument_registers(&self.module.types[argument.ty].inner)?;
@@ -43,6 +44,7 @@ impl<'m> Translator<'m> {
         let entry = self.here();
         let results = self.function_body(&mut body)?;
         self.emit(Inst::new(Op::End));
+        self.owner = before;
         self.plans.set_floor(handle, self.frame.top());
         let compiled = Compiled {
             entry,
@@ -117,6 +119,7 @@ impl<'m> Translator<'m> {
         function: &'m Function,
         given: Vec<Parts>,
     ) -> Result<Parts, Fault> {
+        let before = self.owned_by(function);
         let mut body = Body::new(function, &self.info[handle], Some(handle))?;
         body.arguments = given;
         body.returns = self.returns(&mut body, true)?;
@@ -149,6 +152,7 @@ impl<'m> Translator<'m> {
         for first in std::mem::take(&mut body.locals) {
             self.release_row(first);
         }
+        self.owner = before;
         Ok(body.results)
     }
 

@@ -46,6 +46,10 @@ struct Translator<'m> {
     library: Vec<LibraryCall>,
     sites: Vec<Site>,
     loops: Vec<LoopSite>,
+    owners: Vec<u32>,
+    names: Vec<String>,
+    /// The function at hand, a place in `names`.
+    owner: u32,
     inputs: Vec<Component>,
     buffers: Vec<Buffer>,
     globals: HashMap<Handle<GlobalVariable>, GlobalPlace>,
@@ -79,6 +83,9 @@ pub(super) fn program(
         library: Vec::new(),
         sites: Vec::new(),
         loops: Vec::new(),
+        owners: Vec::new(),
+        names: vec![String::new()],
+        owner: 0,
         inputs: Vec::new(),
         buffers: Vec::new(),
         globals: HashMap::new(),
@@ -188,6 +195,7 @@ impl<'m> Translator<'m> {
         };
         // the function that is run comes last, so that one jump leads to it
         let mut code = vec![Inst::new(Op::Jump).at(entry as u32 + 1)];
+        let owners = std::iter::once(0).chain(self.owners).collect();
         let shifted = |inst: Inst| {
             if inst.op.jumps() {
                 inst.at(inst.x + 1)
@@ -208,6 +216,8 @@ impl<'m> Translator<'m> {
                 .collect(),
             sites: self.sites.into_iter().map(site).collect(),
             loops: self.loops,
+            owners,
+            names: self.names,
             inputs: self.inputs.into_iter().map(component).collect(),
             buffers: self.buffers,
             arguments: arguments.into_iter().map(component).collect(),
@@ -217,7 +227,19 @@ impl<'m> Translator<'m> {
 
     fn emit(&mut self, inst: Inst) -> usize {
         self.code.push(inst);
+        self.owners.push(self.owner);
         self.code.len() - 1
+    }
+
+    /// What is emitted from now on comes from a function; gives the function before.
+    fn owned_by(&mut self, function: &Function) -> u32 {
+        let name = function.name.as_deref().unwrap_or_default();
+        let known = self.names.iter().position(|n| n == name);
+        let place = known.unwrap_or_else(|| {
+            self.names.push(name.to_owned());
+            self.names.len() - 1
+        });
+        std::mem::replace(&mut self.owner, place as u32)
     }
 
     /// The place of the next instruction.
