@@ -247,6 +247,17 @@ fn real_hypot(x: f32, y: f32) -> f32 {
 /// √(x² + y² + z²) without spurious overflow or underflow; infinite when an argument is.
 /// Error: 1.5 ulp.
 fn real_hypot3(x: f32, y: f32, z: f32) -> f32 {
+    let square = x * x + y * y + z * z;
+    // from 2^-90 to 2^100, and no NaN: no square that counts has overflowed or underflowed
+    if bitcast<u32>(square) - 0x12800000u < 0x5f000000u {
+        return sqrt(square);
+    }
+    return scaled_hypot3(x, y, z);
+}
+
+/// √(x² + y² + z²) by way of numbers of about 1, a power of two away.
+/// Error: 1.5 ulp.
+fn scaled_hypot3(x: f32, y: f32, z: f32) -> f32 {
     let a = magnitude(x);
     let b = magnitude(y);
     let c = magnitude(z);
@@ -333,8 +344,7 @@ fn real_round(x: f32) -> f32 {
 /// -1, 0 or 1; 0 for both zeros.
 /// Error: none.
 fn real_sign(x: f32) -> f32 {
-    if is_nan(x) {
-        return x;
-    }
-    return select(flip_sign(1.0, sign_bit(x)), 0.0, magnitude(x) == 0.0);
+    // by bits: neither zero nor NaN, whose squares are 0 and NaN
+    let signed = (bitcast<u32>(x) & 0x7fffffffu) - 1u < 0x7f800000u;
+    return select(x * x, flip_sign(1.0, sign_bit(x)), signed);
 }

@@ -32,8 +32,16 @@ fn real_direction(x: f32, y: f32, r: f32) -> f32 {
 
 /// x/r for r = |(x, y, z)|, and 0 at the origin. Where r overflows, that of a quarter of the point. Error: 2.5 ulp.
 fn real_direction3(x: f32, y: f32, z: f32, r: f32) -> f32 {
+    if bitcast<u32>(r) - 1u < 0x7f7fffffu { // neither 0 nor infinite nor NaN, nor negative
+        return x / r;
+    }
+    return direction3_at_ends(x, y, z, r);
+}
+
+/// `real_direction3` where r is 0, infinite or NaN. Error: 2.5 ulp.
+fn direction3_at_ends(x: f32, y: f32, z: f32, r: f32) -> f32 {
     if is_infinite(r) && is_finite(x) && is_finite(y) && is_finite(z) {
-        return 0.25 * x / real_hypot3(0.25 * x, 0.25 * y, 0.25 * z);
+        return 0.25 * x / scaled_hypot3(0.25 * x, 0.25 * y, 0.25 * z);
     }
     return select(x / r, 0.0, r == 0.0);
 }

@@ -116,6 +116,7 @@ fn plane_distance(ray: Ray, n: vec3f, offset: f32) -> f32 { return 0.0; }
 fn plane_offset(n: vec3f, center: vec3f, half_size: vec3f, position: f32) -> f32 { return 0.0; }
 fn swept_position(position: f32, sweep: f32, period: f32) -> f32 { return 0.0; }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
+fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
 fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f { return vec4f(); }
 fn coordinate_lines(sight: Sight, t: f32, n: vec3f, spacing: f32, width: f32) -> f32 { return 0.0; }
 fn axis_lines(sight: Sight, t: f32, n: vec3f, width: f32) -> vec4f { return vec4f(); }
@@ -159,10 +160,7 @@ fn slice_at(k: u32, sight: Sight, span: vec2f) -> Slice {
         let position = swept_position(settings.position, settings.sweep, settings.period);
         return met_slice(sight, n, position, span, true);
     }
-    let n = unit_axis(k - 1u);
-    let from_center = dot(sight.ray.origin - settings.center, n);
-    let far_wall = select(1.0, -1.0, from_center > 0.0);
-    return met_slice(sight, n, select(far_wall, settings.planes[k - 1u], settings.reference == 1u), span, false);
+    return met_slice(sight, unit_axis(k - 1u), settings.planes[k - 1u], span, false);
 }
 
 fn met_slice(sight: Sight, n: vec3f, position: f32, span: vec2f, chosen: bool) -> Slice {
@@ -171,15 +169,30 @@ fn met_slice(sight: Sight, n: vec3f, position: f32, span: vec2f, chosen: bool) -
     return Slice(t, n, chosen, t > 0.0 && t >= span.x - slack && t <= span.y + slack && span.x <= span.y);
 }
 
+// The wall at which the ray leaves the box: one of those three that are not on the side where it begins.
+fn far_wall(sight: Sight, span: vec2f) -> Slice {
+    let n = box_normal(sight.ray.origin + span.y * sight.ray.direction, settings.center, settings.box);
+    let from_center = dot(sight.ray.origin - settings.center, n);
+    return Slice(span.y, abs(n), false, from_center < 0.0 || (from_center == 0.0 && n.x + n.y + n.z > 0.0));
+}
+
+// The nearer of two; the first where they are at the same distance.
+fn nearer_slice(a: Slice, b: Slice) -> Slice {
+    if b.met && (!a.met || b.t < a.t - 1e-6 * abs(a.t)) {
+        return b;
+    }
+    return a;
+}
+
 // The nearest plane; of two at the same distance the active one.
 fn nearest_slice(sight: Sight, span: vec2f) -> Slice {
     var nearest = slice_at(0u, sight, span);
-    let count = select(4u, 1u, settings.reference == 2u);
-    for (var k = 1u; k < count; k++) {
-        let slice = slice_at(k, sight, span);
-        let tie = 1e-6 * abs(nearest.t);
-        if slice.met && (!nearest.met || slice.t < nearest.t - tie) {
-            nearest = slice;
+    if settings.reference == 0u {
+        return nearer_slice(nearest, far_wall(sight, span));
+    }
+    if settings.reference == 1u {
+        for (var k = 1u; k < 4u; k++) {
+            nearest = nearer_slice(nearest, slice_at(k, sight, span));
         }
     }
     return nearest;

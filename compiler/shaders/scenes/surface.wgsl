@@ -165,9 +165,9 @@ fn path_within(ray: Ray, span: vec2f, steps: u32) -> Path {
     return Path(Ray(ray.origin + enter * ray.direction, ray.direction), extent, step_count(extent, steps));
 }
 
-fn sample_ray(ray: Ray, t: f32) -> Sample {
-    let raw = field_ray(ray.origin, ray.direction, t);
-    let value = clamp(raw.x - settings.level, -LARGEST, LARGEST);
+// A sample of f - level and its slope, of which differences and ratios are finite.
+fn sample_of(t: f32, raw: vec2f) -> Sample {
+    let value = clamp(raw.x, -LARGEST, LARGEST);
     let slope = select(clamp(raw.y, -LARGEST, LARGEST), 0.0, is_nan(raw.y));
     return Sample(t, value, slope, !is_nan(raw.x));
 }
@@ -202,59 +202,68 @@ struct Search {
 
 // The first hit on a path. The inner loop only walks, so that rays side by side walk together to where each has
 // something to search, and then search together. Drivers copy a function to where it is called, and f may be long:
-// samples are taken in this one place.
+// samples are taken in this one place. Most steps hold nothing, which a few comparisons tell.
 fn march(path: Path) -> Hit {
     if !(path.extent > 0.0) {
         return NO_HIT;
     }
-    let step = path.extent / f32(path.count);
-    var a: Sample;
-    var b: Sample;
+    let count = f32(path.count);
+    let step = path.extent / count;
+    // f - level and its slope at the ends of the last step
+    var near: vec2f;
+    var far: vec2f;
     var search: Search;
     var t = 0.0;
-    var k = 0u;
+    var k = 0.0;
     loop {
-        var found: Sample;
+        var found: vec2f;
         var promising = false;
         loop {
-            found = sample_ray(path.ray, t);
+            found = field_ray(path.ray.origin, path.ray.direction, t) - vec2f(settings.level, 0.0);
             if search.mode != WALK {
                 break;
             }
-            a = b;
-            b = found;
-            promising = k > 0u && may_hit(a, b);
-            k++;
-            if promising || k > path.count {
+            near = select(far, found, k == 0.0);
+            far = found;
+            promising = may_hold(near, far, step);
+            k += 1.0;
+            if promising | (k > count) {
                 break;
             }
-            t = f32(k) * step;
+            t = k * step;
         }
+        let a = sample_of((k - 2.0) * step, near);
+        let b = sample_of((k - 1.0) * step, far);
         if search.mode != WALK {
-            search = searched(search, a, b, found);
+            search = searched(search, a, b, sample_of(t, found));
         } else if promising {
             search = search_step(a, b);
         }
         if search.mode == FOUND {
             return Hit(search.t, true, search.touching);
         }
-        if search.mode == WALK && k > path.count {
+        if search.mode == WALK && k > count {
             return NO_HIT;
         }
-        t = select(search.t, f32(k) * step, search.mode == WALK);
+        t = select(search.t, k * step, search.mode == WALK);
     }
     return NO_HIT;
 }
 
-// Whether the step from a to b may hold the surface.
-fn may_hit(a: Sample, b: Sample) -> bool {
-    if a.valid && b.valid {
-        return opposite(a, b) || may_dip(a, b);
+// Whether a step of this length may hold the surface, of f - level and its slope at both ends: where signs differ, where one
+// end is undefined, or where the slope turns and there may be a dip.
+fn may_hold(near: vec2f, far: vec2f, step: f32) -> bool {
+    let undefined = is_nan(far.x);
+    if ((near.x < 0.0) != (far.x < 0.0)) | (is_nan(near.x) != undefined) {
+        return true;
     }
-    return a.valid != b.valid;
+    if ((near.y < 0.0) == (far.y < 0.0)) | undefined {
+        return false;
+    }
+    return may_dip(sample_of(0.0, near), sample_of(step, far));
 }
 
-// A search between two samples of which `may_hit` is true.
+// A search between two samples of which `may_hold` is true.
 fn search_step(a: Sample, b: Sample) -> Search {
     if !a.valid {
         return edge_place(Search(EDGE, 0u, 0.0, a, b, b, 1.0, 1.0, 0.0, false));
@@ -556,26 +565,24 @@ fn face_of(ray: Ray, span: vec2f, behind: bool, hidden: bool) -> Face {
 // f on a face.
 struct Trace {
     value: f32,    // f - level
-    flat: vec3f,   // gradient in the face
-    slope: f32,    // length of that; 0 where it is not known
-    rate: f32,     // change of value per pixel across the lines
+    rate: f32,     // change of value per pixel across the lines; 0 where it is not known
     line: f32,     // coverage by the line of the level, if it is one
 }
 
 fn trace_on(face: Face, value: f32, gradient: vec3f, sight: Sight) -> Trace {
-    let flat = gradient - face.n * dot(gradient, face.n);
-    let slope = length3_safe(flat);
-    if !is_finite(slope) || slope <= 0.0 {
-        return Trace(value, flat, 0.0, 0.0, 0.0);
+    let rate = screen_rate(sight, face.t, face.n, gradient);
+    if (rate <= 0.0) | (rate >= 1e37) {
+        return Trace(value, 0.0, 0.0);
     }
-    let rate = screen_rate(sight, face.t, face.n, flat);
     let line = line_coverage(pixels_away(abs(value), rate), 2.0 * settings.isoline_width, sample_window());
-    return Trace(value, flat, slope, rate, line);
+    return Trace(value, rate, line);
 }
 
-// Where one Newton step ends.
-fn newton_point(face: Face, trace: Trace) -> vec3f {
-    return face.p - trace.flat / trace.slope * (trace.value / trace.slope);
+// Where one Newton step within the face ends.
+fn newton_point(face: Face, value: f32, gradient: vec3f) -> vec3f {
+    let flat = gradient - face.n * dot(gradient, face.n);
+    let slope = length3_safe(flat);
+    return face.p - flat / slope * (value / slope);
 }
 
 // Tells a zero from a pole by f at the end of one Newton step: near a zero of order n that multiplies the value by
@@ -597,7 +604,7 @@ fn wall_on(trace: Trace, undefined: bool, crossed: bool, pixel: vec2f, behind: b
     if behind {
         wall = Layer(mix(side, vec3f(1.0), 0.5), 0.22);
     }
-    if trace.slope <= 0.0 {
+    if trace.rate <= 0.0 {
         return wall;
     }
     if behind && settings.isoline_spacing > 0.0 {
@@ -618,7 +625,7 @@ fn family_coverage(value: f32, rate: f32, window: f32) -> f32 {
         let u = value / spacing;
         let lines = min(rate / spacing, 1e9);
         // Past 2²² spacings f32 no longer resolves the place between two lines.
-        if abs(u) < 4194304.0 {
+        if abs(u) < 4194304.0 && lines < 0.28 {
             let sparse = 1.0 - smoothstep(0.10, 0.28, lines);
             covered = max(covered, sparse * line_train(u, lines * settings.isoline_width, lines * window));
         }
@@ -659,7 +666,7 @@ fn over_wall(under: vec4f, face: Face, sight: Sight, pixel: vec2f, behind: bool)
         if undefined || !(trace.line > 0.0) {
             break;
         }
-        p = newton_point(face, trace);
+        p = newton_point(face, value, jet.xyz);
     }
     let wall = wall_on(trace, undefined, crossed, pixel, behind);
     let edge = edge_layer(sight, face.t, face.n, settings.center, settings.box, settings.edge_width, behind);

@@ -35,15 +35,17 @@ struct March {
     later: Probe,     // the end of the step, where `split`
     split: bool,
     band: i32,        // number of levels at or below f at `near`
-    k: u32,           // steps taken
-    count: u32,       // steps in all
+    floor: f32,       // while it walks, u between the levels around `near`: from `floor` to below `ceiling`; else nothing
+    ceiling: f32,
+    lost: bool,       // while it walks, whether f is undefined at `near`
+    k: f32,           // steps taken
+    count: f32,       // steps in all
     step: f32,
     low: Probe,       // of a search, its bracket
     high: Probe,
     nearest: Probe,   // of a search for an extremum, the sample nearest to the level
     low_weight: f32,
     high_weight: f32,
-    width: f32,       // of a search for a root, that of the bracket before
     before: f32,      // of a search for a root, the greatest distance from the level at its start
     rounds: u32,
     level: i32,       // of a search
@@ -60,10 +62,10 @@ const MARCH_LARGEST: f32 = 1e30;
 // A march over 0..extent in `count` steps, at least one; nothing is to be done where the extent is not positive.
 fn march_over(extent: f32, count: u32) -> March {
     var m = March();
-    m.count = max(count, 1u);
-    m.step = extent / f32(m.count);
+    m.count = f32(max(count, 1u));
+    m.step = extent / m.count;
     m.state = select(MARCH_DONE, MARCH_WALK, extent > 0.0);
-    return m;
+    return between_nothing(m);
 }
 
 fn march_is_done(m: March) -> bool {
@@ -71,32 +73,70 @@ fn march_is_done(m: March) -> bool {
 }
 
 fn probe_of(t: f32, jet: vec2f, family: Family) -> Probe {
-    let u = clamp((jet.x - family.lowest) / family.spacing, -MARCH_LARGEST, MARCH_LARGEST);
-    let slope = select(clamp(jet.y / family.spacing, -MARCH_LARGEST, MARCH_LARGEST), 0.0, is_nan(jet.y));
-    return Probe(t, u, slope, !is_nan(jet.x));
+    return tamed(Probe(t, (jet.x - family.lowest) / family.spacing, jet.y / family.spacing, !is_nan(jet.x)));
 }
 
 // Whether f and df/dt at m.t are the end of a step in which there is nothing to search, and not the last one. Scenes walk
 // such steps in a loop of their own, by `march_stride`, so that rays side by side walk together to where each has
-// something to search, and then search together.
+// something to search, and then search together. Most of a ray is such steps: what they take is a few comparisons.
 fn march_strides(m: March, jet: vec2f, family: Family) -> bool {
-    if m.state != MARCH_WALK || m.k == 0u || m.k >= m.count {
+    let u = (jet.x - family.lowest) / family.spacing;
+    let between = select((u >= m.floor) & (u < m.ceiling), m.lost, is_nan(jet.x));
+    if !between | (m.k >= m.count) {
         return false;
     }
-    let probe = probe_of(m.t, jet, family);
-    if !probe.valid || !m.near.valid {
-        return probe.valid == m.near.valid;
+    if (jet.y < 0.0) == (m.near.slope < 0.0) {
+        return true;
     }
-    return band_of(probe, family) == m.band && dip_level(m.near, probe, m.band, family) < 0;
+    return m.lost || dip_level(tamed(m.near), probe_of(m.t, jet, family), m.band, family) < 0;
 }
 
 // The step that `march_strides` is true of.
 fn march_stride(before: March, jet: vec2f, family: Family) -> March {
     var m = before;
-    m.near = probe_of(m.t, jet, family);
-    m.k++;
-    m.t = f32(m.k) * m.step;
+    m.near = Probe(m.t, (jet.x - family.lowest) / family.spacing, jet.y / family.spacing, !m.lost);
+    m.k += 1.0;
+    m.t = m.k * m.step;
     return m;
+}
+
+// A probe with numbers of which differences and ratios are finite.
+fn tamed(probe: Probe) -> Probe {
+    let u = clamp(probe.u, -MARCH_LARGEST, MARCH_LARGEST);
+    let slope = select(clamp(probe.slope, -MARCH_LARGEST, MARCH_LARGEST), 0.0, is_nan(probe.slope));
+    return Probe(probe.t, u, slope, probe.valid);
+}
+
+// A march that goes on to step k, after what `near` and `band` say of the way before.
+fn walking(before: March, k: f32, family: Family) -> March {
+    var m = before;
+    m.k = k;
+    m.t = k * m.step;
+    m.state = select(MARCH_WALK, MARCH_DONE, k > m.count);
+    m.lost = !m.near.valid;
+    if m.lost {
+        return between_nothing(m);
+    }
+    m.floor = select(f32(m.band - 1), -2.0 * MARCH_LARGEST, m.band == 0);
+    m.ceiling = select(f32(m.band), 2.0 * MARCH_LARGEST, m.band == i32(family.count));
+    return m;
+}
+
+// No value is between these.
+fn between_nothing(before: March) -> March {
+    var m = before;
+    m.floor = 1.0;
+    m.ceiling = 0.0;
+    return m;
+}
+
+// A march that looks elsewhere than at its next step.
+fn searching(before: March, state: u32) -> March {
+    var m = before;
+    m.state = state;
+    m.rounds = 0u;
+    m.lost = false;
+    return between_nothing(m);
 }
 
 // Takes f and df/dt at m.t.
@@ -117,11 +157,11 @@ fn band_of(probe: Probe, family: Family) -> i32 {
 
 fn walk_on(before: March, probe: Probe, family: Family) -> March {
     var m = before;
-    if m.k == 0u {
-        m.far = probe;
+    m.far = probe;
+    if m.k == 0.0 {
         return step_on(m, family);
     }
-    m.far = probe;
+    m.near = tamed(m.near);
     return settle(m, family);
 }
 
@@ -138,10 +178,7 @@ fn step_on(before: March, family: Family) -> March {
         }
         m.near = m.far;
     }
-    m.k++;
-    m.t = f32(m.k) * m.step;
-    m.state = select(MARCH_WALK, MARCH_DONE, m.k > m.count);
-    return m;
+    return walking(m, m.k + 1.0, family);
 }
 
 // What there is to be done between `near` and `far`.
@@ -168,18 +205,13 @@ fn search_rest(before: March, family: Family) -> March {
         return root_between(m, family);
     }
     m.near = m.far;
-    m.k++;
-    m.t = f32(m.k) * m.step;
-    m.state = select(MARCH_WALK, MARCH_DONE, m.k > m.count);
-    return m;
+    return walking(m, m.k + 1.0, family);
 }
 
 // ---- Where f ceases to be defined, by bisection from the valid side ------------------------------------------
 
 fn edge_between(before: March) -> March {
-    var m = before;
-    m.state = MARCH_EDGE;
-    m.rounds = 0u;
+    var m = searching(before, MARCH_EDGE);
     m.low = m.near;
     m.high = m.far;
     if !m.near.valid {
@@ -240,14 +272,12 @@ fn may_dip(a: Probe, b: Probe, level: i32) -> bool {
 }
 
 fn dip_between(before: March, level: i32) -> March {
-    var m = before;
-    m.state = MARCH_DIP;
-    m.rounds = 0u;
+    var m = searching(before, MARCH_DIP);
     m.level = level;
     m.low = m.near;
     m.high = m.far;
     m.nearest = m.near;
-    if abs(m.far.u - f32(level)) < abs(m.near.u - f32(level)) {
+    if away(m, m.far) < away(m, m.near) {
         m.nearest = m.far;
     }
     m.low_weight = 1.0;
@@ -274,7 +304,7 @@ fn dip_on(before: March, probe: Probe, family: Family) -> March {
         m.split = true;
         return settle(m, family);
     }
-    if abs(probe.u - f32(m.level)) <= abs(m.nearest.u - f32(m.level)) {
+    if away(m, probe) <= away(m, m.nearest) {
         m.nearest = probe;
     }
     if (probe.slope < 0.0) == (m.near.slope < 0.0) {
@@ -292,8 +322,8 @@ fn dip_on(before: March, probe: Probe, family: Family) -> March {
         return m;
     }
     // even roots: the extremum equals the level to rounding
-    let size = max(abs(m.near.u - f32(m.level)), abs(m.far.u - f32(m.level)));
-    m.hit = abs(m.nearest.u - f32(m.level)) <= 3e-7 * size;
+    let size = max(away(m, m.near), away(m, m.far));
+    m.hit = away(m, m.nearest) <= 3e-7 * size;
     m.touching = m.hit;
     m.hit_level = m.level;
     m.hit_t = m.nearest.t;
@@ -303,21 +333,23 @@ fn dip_on(before: March, probe: Probe, family: Family) -> March {
 // ---- Roots between samples of two bands ----------------------------------------------------------------------
 
 fn root_between(before: March, family: Family) -> March {
-    var m = before;
-    m.state = MARCH_ROOT;
-    m.rounds = 0u;
+    var m = searching(before, MARCH_ROOT);
     m.level = select(m.band - 1, m.band, band_of(m.far, family) > m.band);
     m.low = m.near;
     m.high = m.far;
-    m.width = 2.0 * (m.far.t - m.near.t);
-    m.before = max(abs(m.near.u - f32(m.level)), abs(m.far.u - f32(m.level)));
-    m.t = root_guess(m);
+    m.before = max(away(m, m.near), away(m, m.far));
+    m.t = root_guess(m, true);
     return m;
+}
+
+// Distance from the level that is searched for, in spacings.
+fn away(m: March, probe: Probe) -> f32 {
+    return abs(probe.u - f32(m.level));
 }
 
 // The end of the bracket that is nearer to the level.
 fn nearer_end(m: March) -> Probe {
-    if abs(m.low.u - f32(m.level)) <= abs(m.high.u - f32(m.level)) {
+    if away(m, m.low) <= away(m, m.high) {
         return m.low;
     }
     return m.high;
@@ -325,18 +357,21 @@ fn nearer_end(m: March) -> Probe {
 
 // Least distance along the ray that is told apart.
 fn march_tolerance(m: March) -> f32 {
-    return 1.2e-7 * (abs(m.high.t) + m.step * f32(m.count)) + 1e-37;
+    return 1.2e-7 * (abs(m.high.t) + m.step * m.count) + 1e-37;
+}
+
+// Where Newton's step from a probe ends.
+fn newton_place(m: March, probe: Probe) -> f32 {
+    return probe.t - (probe.u - f32(m.level)) / select(probe.slope, 1e-37, probe.slope == 0.0);
 }
 
 // Newton's step from the end of the bracket that is nearer, and a little further, so that the bracket closes; bisection
-// where that leaves the bracket, or the bracket has not become half as wide.
-fn root_guess(m: March) -> f32 {
+// where that leaves the bracket, or the search is slow.
+fn root_guess(m: March, fast: bool) -> f32 {
     let best = nearer_end(m);
-    let inward = select(-1.0, 1.0, best.t <= m.low.t);
-    let t = best.t - (best.u - f32(m.level)) / select(best.slope, 1e-37, best.slope == 0.0) + inward * march_tolerance(m);
-    let middle = 0.5 * (m.low.t + m.high.t);
-    let good = t > m.low.t && t < m.high.t && (m.high.t - m.low.t) <= 0.5 * m.width;
-    return select(middle, t, good);
+    let inward = select(-2.0, 2.0, best.t <= m.low.t);
+    let t = newton_place(m, best) + inward * march_tolerance(m);
+    return select(0.5 * (m.low.t + m.high.t), t, fast && t > m.low.t && t < m.high.t);
 }
 
 fn root_on(before: March, probe: Probe, family: Family) -> March {
@@ -344,7 +379,8 @@ fn root_on(before: March, probe: Probe, family: Family) -> March {
     if !probe.valid {
         return step_on(m, family);
     }
-    m.width = m.high.t - m.low.t;
+    let width = m.high.t - m.low.t;
+    let least = min(away(m, m.low), away(m, m.high));
     let beyond = (probe.u >= f32(m.level)) == (m.level >= m.band);
     if beyond {
         m.high = probe;
@@ -352,8 +388,10 @@ fn root_on(before: March, probe: Probe, family: Family) -> March {
         m.low = probe;
     }
     m.rounds++;
-    m.t = root_guess(m);
-    if m.high.t - m.low.t > 2.0 * march_tolerance(m) && m.rounds < 48u {
+    // it is slow where neither the bracket has become half as wide nor its nearer end a quarter as far from the level
+    m.t = root_guess(m, m.high.t - m.low.t <= 0.5 * width || away(m, probe) <= 0.25 * least);
+    // Both ends are as near as rays are resolved; Newton's step from the nearer one places the level within the bracket.
+    if m.high.t - m.low.t > 8.0 * march_tolerance(m) && m.rounds < 48u {
         return m;
     }
     return root_found(m, family);
@@ -361,14 +399,14 @@ fn root_on(before: March, probe: Probe, family: Family) -> March {
 
 fn root_found(before: March, family: Family) -> March {
     var m = before;
-    let after = max(abs(m.low.u - f32(m.level)), abs(m.high.u - f32(m.level)));
+    let after = max(away(m, m.low), away(m, m.high));
     let rising = m.level >= m.band;
     if after < 0.25 * m.before || after < 1e-3 {
         m.hit = true;
         m.touching = false;
         m.near = nearer_end(m);
         m.hit_level = m.level;
-        m.hit_t = m.near.t;
+        m.hit_t = clamp(newton_place(m, m.near), m.low.t, m.high.t);
         m.band = select(m.level, m.level + 1, rising);
     } else {
         m.near = m.high;

@@ -75,11 +75,19 @@ fn matter_of(jet: vec4f, medium: Medium) -> Matter {
         return Matter(vec3f(), 0.0);
     }
     let x = min(abs(jet.w) / medium.scale, DENSEST_RATIO);
-    let extinction = medium.density * pow(max(x, 1e-30), medium.power);
+    let extinction = medium.density * raised(x, medium.power);
     let own = select(medium.positive, medium.negative, below);
     let level = x / (1.0 + x);
     let colour = 2.0 * level * mix(own, vec3f(1.0), medium.core * level);
     return Matter(colour * emission_shade(select(jet.xyz, -jet.xyz, below), medium), extinction);
+}
+
+// x^power for x >= 0. The square, which is the usual one, needs no logarithm.
+fn raised(x: f32, power: f32) -> f32 {
+    if power == 2.0 {
+        return x * x;
+    }
+    return pow(max(x, 1e-30), power);
 }
 
 // Light and shade of an emitting medium by the direction in which its density falls, as if that were a normal: where

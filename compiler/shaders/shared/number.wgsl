@@ -12,25 +12,26 @@ fn is_finite(x: f32) -> bool {
     return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
 }
 
-// Euclidean length without overflow or underflow; infinite where a component is. No NaN may come in. Squares are of
-// v over its largest component only where they would leave the range.
+// Whether a sum of squares is between 2^-90 and 2^100: then no square that counts in it has overflowed or underflowed. One
+// comparison of integers, false for 0, infinity and NaN, too.
+fn is_moderate(square: f32) -> bool {
+    return (bitcast<u32>(square) - 0x12800000u) < 0x5f000000u;
+}
+
+// Euclidean length without overflow or underflow; infinite where a component is. No NaN may come in.
 fn length2_safe(v: vec2f) -> f32 {
-    let squared = dot(v, v);
-    if (squared > 1e-30) & (squared < 1e37) {
-        return sqrt(squared);
+    let square = dot(v, v);
+    if is_moderate(square) {
+        return sqrt(square);
     }
-    let size = max(abs(v.x), abs(v.y));
-    if size == 0.0 || is_inf(size) {
-        return size;
-    }
-    return size * length(v / size);
+    return scaled_length(vec3f(v, 0.0));
 }
 
 // Length of a gradient, at most 1e37; -1 where it is not known (NaN).
 fn gradient_length(v: vec2f) -> f32 {
-    let squared = dot(v, v);
-    if (squared > 1e-30) & (squared < 1e37) {
-        return sqrt(squared);
+    let square = dot(v, v);
+    if is_moderate(square) {
+        return sqrt(square);
     }
     if is_nan(v.x) || is_nan(v.y) {
         return -1.0;
@@ -39,6 +40,15 @@ fn gradient_length(v: vec2f) -> f32 {
 }
 
 fn length3_safe(v: vec3f) -> f32 {
+    let square = dot(v, v);
+    if is_moderate(square) {
+        return sqrt(square);
+    }
+    return scaled_length(v);
+}
+
+// The length of a vector of any size, in units of its greatest component.
+fn scaled_length(v: vec3f) -> f32 {
     let size = max(abs(v.x), max(abs(v.y), abs(v.z)));
     if size == 0.0 || is_inf(size) {
         return size;
@@ -48,6 +58,15 @@ fn length3_safe(v: vec3f) -> f32 {
 
 // Unit vector along `v`, or `fallback` where `v` has no direction (zero, infinite or NaN components).
 fn direction_or(v: vec3f, fallback: vec3f) -> vec3f {
+    let square = dot(v, v);
+    if is_moderate(square) {
+        return v * inverseSqrt(square);
+    }
+    return scaled_direction(v, fallback);
+}
+
+// The direction of a vector of any size, by way of one of about 1.
+fn scaled_direction(v: vec3f, fallback: vec3f) -> vec3f {
     let finite = is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
     let size = max(abs(v.x), max(abs(v.y), abs(v.z)));
     if !finite || size == 0.0 {

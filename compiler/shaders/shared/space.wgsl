@@ -6,6 +6,17 @@
 // ∂p/∂q = footprint (R - d (n·R)/(n·d)) for the image's axes R, so that the function changes by R·h with
 // h = ∇f - n (∇f·d)/(n·d). Kept within 1e37; negative where the gradient is undefined.
 fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 {
+    let h = gradient - n * (dot(gradient, sight.ray.direction) / tilt_of(sight, n));
+    let flat = h - sight.forward * dot(h, sight.forward);
+    let square = dot(flat, flat);
+    if is_moderate(square) {
+        return min(sqrt(square) * sight_footprint(sight, t), 1e37);
+    }
+    return scaled_screen_rate(sight, t, n, gradient);
+}
+
+// `screen_rate` of a gradient of any size, by way of one of about 1.
+fn scaled_screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 {
     if is_nan(gradient.x) || is_nan(gradient.y) || is_nan(gradient.z) {
         return -1.0;
     }
@@ -16,14 +27,32 @@ fn screen_rate(sight: Sight, t: f32, n: vec3f, gradient: vec3f) -> f32 {
     if is_inf(size) {
         return 1e37;
     }
-    let d = sight.ray.direction;
     let g = gradient / size;
-    let across = dot(n, d);
-    let tilt = select(across, select(1e-6, -1e-6, across < 0.0), abs(across) < 1e-6);
-    let h = g - n * (dot(g, d) / tilt);
+    let h = g - n * (dot(g, sight.ray.direction) / tilt_of(sight, n));
     let flat = h - sight.forward * dot(h, sight.forward);
     let rate = length(flat) * sight_footprint(sight, t);
     return rate * min(size, 1e37 / max(rate, 1.0));
+}
+
+// Cosine between a sight and the normal of a plane, away from 0 by at least 1e-6.
+fn tilt_of(sight: Sight, n: vec3f) -> f32 {
+    let across = dot(n, sight.ray.direction);
+    return select(across, select(1e-6, -1e-6, across < 0.0), abs(across) < 1e-6);
+}
+
+// Pixels per unit of each coordinate on the plane with normal n at distance t: 1 over `screen_rate` of the unit vectors.
+// Of these, |h|² is 1 - 2 n d/(n·d) + (d/(n·d))², by components, and what is seen of it lacks (R·h)² along the view; the
+// difference does not cancel, because h is at right angles to the ray. Of no use for a coordinate that is constant there.
+fn axis_spread(sight: Sight, t: f32, n: vec3f) -> vec3f {
+    let lean = sight.ray.direction / tilt_of(sight, n);
+    let ahead = sight.forward - lean * dot(n, sight.forward);
+    let square = 1.0 + lean * (lean - 2.0 * n) - ahead * ahead;
+    return inverseSqrt(max(square, vec3f(1e-12))) / max(sight_footprint(sight, t), 1e-37);
+}
+
+// Which coordinates change on a plane with normal n.
+fn axes_across(n: vec3f) -> vec3<bool> {
+    return abs(n) < vec3f(0.99);
 }
 
 // Distance along a ray to the plane n·p = offset; negative where they do not meet.
@@ -67,50 +96,43 @@ fn swept_position(position: f32, sweep: f32, period: f32) -> f32 {
     return clamp(position + sweep * sin(6.283185307179586 * (turn - floor(turn))), -1.0, 1.0);
 }
 
-// Coverage by the edges of the box on the plane with normal n, a face or one that cuts it, at distance t.
+// Coverage by the edges of the box on the plane with normal n, a face or one that cuts it, at distance t: that of the
+// nearest one.
 fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 {
     let p = sight.ray.origin + t * sight.ray.direction;
     let gap = max(half_size - abs(p - center), vec3f(0.0));
-    var covered = 0.0;
-    for (var k = 0u; k < 3u; k++) {
-        let axis = unit_axis(k);
-        if abs(dot(n, axis)) < 0.99 {
-            covered = max(covered, line_coverage(pixels_away(gap[k], screen_rate(sight, t, n, axis)), width, sample_window()));
-        }
-    }
-    return covered;
+    let away = select(vec3f(1e9), gap * axis_spread(sight, t, n), axes_across(n));
+    return line_coverage(min(min(away.x, min(away.y, away.z)), 1e9), width, sample_window());
 }
 
 // Coverage by the lines at the multiples of `spacing` of each coordinate, on a plane.
 fn coordinate_lines(sight: Sight, t: f32, n: vec3f, spacing: f32, width: f32) -> f32 {
-    let p = sight.ray.origin + t * sight.ray.direction;
+    let u = (sight.ray.origin + t * sight.ray.direction) / spacing;
+    let rate = 1.0 / (spacing * axis_spread(sight, t, n));
+    let across = axes_across(n);
     var covered = 0.0;
-    for (var k = 0u; k < 3u; k++) {
-        let rate = screen_rate(sight, t, n, unit_axis(k)) / spacing;
-        if abs(n[k]) < 0.99 && abs(p[k]) < 4194304.0 * spacing {
-            covered = max(covered, even_lines(p[k] / spacing, rate, width));
-        }
+    if across.x {
+        covered = even_lines(u.x, rate.x, width);
+    }
+    if across.y {
+        covered = max(covered, even_lines(u.y, rate.y, width));
+    }
+    if across.z {
+        covered = max(covered, even_lines(u.z, rate.z, width));
     }
     return covered;
 }
 
-// Where coordinates are 0 on a plane: colour of the axis along the line, and coverage. x is red, y is green, z is blue;
-// on a plane across an axis, the line where one of the other two coordinates is 0 is along the third.
+// Where coordinates are 0 on a plane: colour of the axis along the nearest such line, and coverage. x is red, y is green, z
+// is blue; on a plane across an axis, the line where one of the other two coordinates is 0 is along the third.
 fn axis_lines(sight: Sight, t: f32, n: vec3f, width: f32) -> vec4f {
     let p = sight.ray.origin + t * sight.ray.direction;
-    var painted = vec4f();
-    for (var k = 0u; k < 3u; k++) {
-        if abs(n[k]) < 0.99 {
-            let away = pixels_away(abs(p[k]), screen_rate(sight, t, n, unit_axis(k)));
-            let along = abs(cross(n, unit_axis(k)));
-            let colour = along.x * vec3f(0.55, 0.03, 0.02) + along.y * vec3f(0.02, 0.30, 0.03) + along.z * vec3f(0.02, 0.06, 0.55);
-            let covered = line_coverage(away, width, sample_window());
-            if covered > painted.a {
-                painted = vec4f(colour, covered);
-            }
-        }
-    }
-    return painted;
+    let away = select(vec3f(1e9), abs(p) * axis_spread(sight, t, n), axes_across(n));
+    let nearest = min(away.x, min(away.y, away.z));
+    let zero = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), away.y <= nearest), vec3f(1.0, 0.0, 0.0), away.x <= nearest);
+    let along = abs(cross(n, zero));
+    let colour = along.x * vec3f(0.55, 0.03, 0.02) + along.y * vec3f(0.02, 0.30, 0.03) + along.z * vec3f(0.02, 0.06, 0.55);
+    return vec4f(colour, line_coverage(min(nearest, 1e9), width, sample_window()));
 }
 
 fn unit_axis(k: u32) -> vec3f {
