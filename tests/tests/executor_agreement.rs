@@ -3,7 +3,7 @@
 mod support;
 
 use pullback_compiler::formula::Formula;
-use pullback_compiler::ir::{Graph, Id, Op, expand_powers, merge_loops};
+use pullback_compiler::ir::{Graph, Id, Op, SINGLE_CALLS, expand_powers, merge_loops};
 use pullback_compiler::lower::Precision;
 use pullback_compiler::module::stable_evaluation;
 use pullback_compiler::reference::complex::complex;
@@ -139,7 +139,7 @@ fn executed(formula: &Formula) -> (Graph, Vec<Id>, Vec<Vec<f64>>) {
     let found = machine.run(formula, What::Value, &points).expect("it runs");
     let lowered = stable_evaluation(formula, What::Value).expect("it is lowered");
     let (graph, roots) = merge_loops(&lowered.graph, &lowered.roots);
-    let (graph, roots) = expand_powers(&graph, &roots);
+    let (graph, roots) = expand_powers(&graph, &roots, &SINGLE_CALLS);
     (graph.as_ref().clone(), roots, found)
 }
 

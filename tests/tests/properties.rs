@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use pullback_compiler::derive::{forward, reverse};
 use pullback_compiler::eval::{Leaves, Tape};
 use pullback_compiler::formula::Formula;
-use pullback_compiler::ir::{Graph, Id, Ty, expand_powers, parse_text, to_text, verify};
+use pullback_compiler::ir::{Graph, Id, NO_CALLS, Ty, expand_powers, parse_text, to_text, verify};
 use pullback_compiler::lower::Precision;
 use pullback_compiler::table::Number;
 use pullback_compiler::{EmitWhat, Program, Target, What, compile};
@@ -80,7 +80,7 @@ fn compaction_keeps_values_and_powers_expand_to_products() {
     for body in samples(300, &any_real()) {
         let formula = formula(&format!("f(x, y) = {body}"));
         let (compact, roots) = formula.graph.compacted(&formula.value);
-        let (expanded, products) = expand_powers(&formula.graph, &formula.value);
+        let (expanded, products) = expand_powers(&formula.graph, &formula.value, &NO_CALLS);
         verify(&expanded).unwrap_or_else(|e| panic!("{body}: {e:?}"));
         for point in POINTS {
             let before = reals(&formula.graph, &formula.value, point)[0];
@@ -95,7 +95,7 @@ fn compaction_keeps_values_and_powers_expand_to_products() {
     }
     for body in samples(300, &smooth()) {
         let formula = formula(&format!("f(x, y) = {body}"));
-        let (expanded, products) = expand_powers(&formula.graph, &formula.value);
+        let (expanded, products) = expand_powers(&formula.graph, &formula.value, &NO_CALLS);
         for point in POINTS {
             let before = reals(&formula.graph, &formula.value, point)[0];
             let after = reals(&expanded, &products, point)[0];

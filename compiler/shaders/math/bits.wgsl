@@ -117,6 +117,12 @@ fn two_sum(a: f32, b: f32, zero: u32) -> vec2f {
     return vec2f(s, opaque(a - u, zero) + opaque(b - t, zero));
 }
 
+/// a + b as rounded sum and its error, exactly where |a| ≥ |b| (Dekker 1971).
+fn fast_two_sum(a: f32, b: f32, zero: u32) -> vec2f {
+    let s = opaque(a + b, zero);
+    return vec2f(s, b - opaque(s - a, zero));
+}
+
 /// a b exactly, as rounded product and its error, where nothing underflows (Dekker 1971; split by masking).
 fn two_product(a: f32, b: f32, zero: u32) -> vec2f {
     let p = opaque(a * b, zero);

@@ -129,6 +129,10 @@ ROWS = {
     "atan": (odd(atan), odd_weight(atan), 0, 1, 1e-8, "atan t = t + t^3 P(t^2)"),
     "asin": (odd(asin), odd_weight(asin), 0, 0.25, 6e-9, "asin t = t + t^3 P(t^2)"),
     "sinh": (odd(sinh), odd_weight(sinh), 0, 1, 6e-9, "sinh t = t + t^3 P(t^2)"),
+    "cosh": (
+        lambda z: (cosh(sqrt(z)) - 1 - z / 2) / z**2, lambda z: z**2 / cosh(sqrt(z)), 0, mpf("1.0001"), 1e-8,
+        "cosh t = 1 + z/2 + z^2 P(z), z = t^2",
+    ),
     "tanh": (odd(tanh), odd_weight(tanh), 0, 0.4, 1e-8, "tanh t = t + t^3 P(t^2)"),
     "asinh": (odd(asinh), odd_weight(asinh), 0, 0.25, 1e-8, "asinh t = t + t^3 P(t^2)"),
     "atanh": (odd(atanh), odd_weight(atanh), 0, 0.25, 1e-8, "atanh t = t + t^3 P(t^2)"),

@@ -59,34 +59,6 @@ fn complex_cosh(z: vec2f) -> vec2f {
     return vec2f(times_wide_power_of_two(h.cosh * wave.y, h.exponent), flip_sign(im, sign_bit(z.x) ^ sign_bit(wave.x)));
 }
 
-/// tanh z = (sinh x cosh x + i sin y cos y) / (sinh² x + cos² y): no term cancels (after Kahan 1987; C99 G.6.2.6).
-/// Error: 6.5 ulp each component.
-fn complex_tanh(z: vec2f) -> vec2f {
-    if is_infinite(z.x) {
-        var im = z.y;
-        if is_finite(z.y) {
-            let wave = real_sincos(z.y);
-            im = flip_sign(wave.x, sign_bit(wave.y));
-        }
-        return vec2f(with_sign(1.0, z.x), with_sign(0.0, im));
-    }
-    if magnitude(z.y) == 0.0 {
-        return vec2f(real_tanh(z.x), z.y);
-    }
-    if !is_finite(z.y) || is_nan(z.x) {
-        return vec2f(select(make_nan(z.x), z.x, magnitude(z.x) == 0.0), make_nan(z.y));
-    }
-    let wave = real_sincos(z.y);
-    let a = magnitude(z.x);
-    if a > 12.0 {
-        let e = exp_scaled(max(-2.0 * a, -150.0), 2);
-        return vec2f(with_sign(1.0, z.x), wave.x * wave.y * e);
-    }
-    let h = real_sinhcosh(a);
-    let norm = h.x * h.x + wave.y * wave.y;
-    return vec2f(with_sign(h.x * h.y / norm, z.x), wave.x * wave.y / norm);
-}
-
 /// sin z = -i sinh(i z).
 /// Error: 3.5 ulp each component.
 fn complex_sin(z: vec2f) -> vec2f {
@@ -97,12 +69,6 @@ fn complex_sin(z: vec2f) -> vec2f {
 /// Error: 3.5 ulp each component.
 fn complex_cos(z: vec2f) -> vec2f {
     return complex_cosh(complex_mul_i(z));
-}
-
-/// tan z = -i tanh(i z).
-/// Error: 7 ulp each component.
-fn complex_tan(z: vec2f) -> vec2f {
-    return complex_div_i(complex_tanh(complex_mul_i(z)));
 }
 
 /// log |2 z| for a large, possibly infinite z.

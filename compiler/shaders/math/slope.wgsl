@@ -1,4 +1,4 @@
-// Slopes: derivatives of the inverse functions and of lengths, and the reciprocals of the waves.
+// Slopes: derivatives of the inverse functions and of lengths, and the reciprocals of the real waves.
 
 /// 1/(1 + x²). Error: 2 ulp.
 fn real_atan_slope(x: f32) -> f32 {
@@ -118,24 +118,4 @@ fn real_sech(x: f32) -> f32 {
 /// 1/sinh x. Error: 2.5 ulp.
 fn real_csch(x: f32) -> f32 {
     return 1.0 / real_sinh(x);
-}
-
-/// 1/cos z. Error: 5 ulp of the norm.
-fn complex_sec(z: vec2f) -> vec2f {
-    return complex_inverse(complex_cos(z));
-}
-
-/// 1/sin z. Error: 5 ulp of the norm.
-fn complex_csc(z: vec2f) -> vec2f {
-    return complex_inverse(complex_sin(z));
-}
-
-/// 1/cosh z. Error: 5 ulp of the norm.
-fn complex_sech(z: vec2f) -> vec2f {
-    return complex_inverse(complex_cosh(z));
-}
-
-/// 1/sinh z. Error: 5 ulp of the norm.
-fn complex_csch(z: vec2f) -> vec2f {
-    return complex_inverse(complex_sinh(z));
 }

@@ -1,8 +1,9 @@
 // sin, cos, tan over the whole range of f32, and their inverses.
 
-/// An angle a ≥ 0 as count · π/2 + rest, |rest| ≤ π/4 (rest to half an ulp and 2^-31).
+/// An angle a ≥ 0 as count · π/2 + rest + low, |rest| ≤ π/4: rest is rounded, low is what that leaves (together 2^-30 of rest).
 struct QuarterTurns {
     rest: f32,
+    low: f32,
     count: u32,
 }
 
@@ -17,7 +18,8 @@ fn quarter_turns(a: f32) -> QuarterTurns {
     let t = opaque(a - n * 1.570770263671875, zero);
     let p = n * 2.6063062250614166e-05;
     let u = opaque(t - p, zero);
-    return QuarterTurns(u + (((t - u) - p) - n * 6.07710062827671e-11), u32(n));
+    let rest = fast_two_sum(u, ((t - u) - p) - n * 6.07710062827671e-11, zero);
+    return QuarterTurns(rest.x, rest.y, u32(n));
 }
 
 /// Reduction for a > 400 in integers, which no driver reassociates (Payne and Hanek 1983): the significand times the
@@ -26,7 +28,7 @@ fn reduce_large(a: f32) -> QuarterTurns {
     let bits = bitcast<u32>(a);
     let biased = bits >> 23u;
     if biased == 255u {
-        return QuarterTurns(make_nan(a), 0u);
+        return QuarterTurns(make_nan(a), 0.0, 0u);
     }
     // 0 and the first bits of 2/π, in words; the first bit that matters is the one of weight 2^(147 - biased). Four
     // words from number word = 0 … 4 on are chosen by halving: an indexed array is slow on many adapters.
@@ -71,8 +73,11 @@ fn reduce_large(a: f32) -> QuarterTurns {
     }
     let lead = countLeadingZeros(high | 1u);
     let fraction = (high << lead) | ((low >> 1u) >> (31u - lead));
-    let rest = f32(multiply_high(fraction, 0xc90fdaa2u)) * power_of_two(exponent - i32(lead));
-    return QuarterTurns(select(rest, -rest, negative), count);
+    let whole = multiply_high(fraction, 0xc90fdaa2u);
+    let nearest = f32(whole);
+    let unit = power_of_two(exponent - i32(lead));
+    let sign = select(0u, 0x80000000u, negative);
+    return QuarterTurns(flip_sign(nearest * unit, sign), flip_sign(f32(i32(whole - u32(nearest))) * unit, sign), count);
 }
 
 /// sin r = r + r^3 P(r²) for |r| ≤ π/4; coefficients.py, sin.

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Binder, Graph, Id, Op, Prim, Regions, Ty, expand_powers, merge_loops};
+use super::{Binder, Graph, Id, Op, Prim, Regions, SINGLE_CALLS, Ty, expand_powers, merge_loops};
 use crate::table;
 
 /// Cost of an expression after common subexpressions, integer powers counted as products.
@@ -17,7 +17,7 @@ pub struct Cost {
 /// Cost of computing all the roots together. What is in a loop counts as often as the loop can step.
 #[must_use]
 pub fn cost(graph: &Graph, roots: &[Id]) -> Cost {
-    let (graph, roots) = expand_powers(graph, roots);
+    let (graph, roots) = expand_powers(graph, roots, &SINGLE_CALLS);
     let (graph, roots) = merge_loops(&graph, &roots);
     let live = graph.reachable(&roots);
     let steps = steps(&graph, &live);

@@ -22,7 +22,7 @@ pub use infix::{LeafNames, to_infix};
 pub use loops::{Loop, State};
 pub use merge::merge_loops;
 pub use op::{Binder, Op, Prim, Ty};
-pub use powers::expand_powers;
+pub use powers::{NO_CALLS, SINGLE_CALLS, expand_powers};
 pub use regions::Regions;
 pub use schedule::{Plan, Schedule};
 pub use text::{ParseError, parse_text, to_text};

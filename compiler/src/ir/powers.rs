@@ -1,19 +1,32 @@
 //! Integer powers as products.
 
 use std::borrow::Cow;
+use std::ops::RangeInclusive;
 
 use super::{Graph, Id, Op, Prim, Ty, transcribe};
 
 /// Exponents up to this size become products; larger ones stay calls.
 const MAX_EXPANDED: u32 = 1 << 16;
 
+/// Exponents whose complex powers stay calls in single precision: products by repeated squaring would round to more than 4 ulp
+/// of the modulus there, which the library's function does not.
+pub const SINGLE_CALLS: RangeInclusive<u32> = 5..=8;
+
+/// No exponents: all complex powers become products.
+pub const NO_CALLS: RangeInclusive<u32> = 1..=0;
+
 /// Rewrites every integer power that the roots depend on as products by repeated squaring, so that xⁿ and
 /// the xⁿ⁻¹ of its derivative share their factors. A negative exponent is the reciprocal of the positive power, but x⁻² the
-/// square of the reciprocal, which neither overflows nor underflows where the result does not; z⁻² of a complex z stays.
+/// square of the reciprocal, which neither overflows nor underflows where the result does not; z⁻² of a complex z stays, and so do complex powers by
+/// `calls`.
 ///
 /// Knuth, The Art of Computer Programming 2, section 4.6.3 (left-to-right binary method).
 #[must_use]
-pub fn expand_powers<'g>(graph: &'g Graph, roots: &[Id]) -> (Cow<'g, Graph>, Vec<Id>) {
+pub fn expand_powers<'g>(
+    graph: &'g Graph,
+    roots: &[Id],
+    calls: &RangeInclusive<u32>,
+) -> (Cow<'g, Graph>, Vec<Id>) {
     let live = graph.reachable(roots);
     let is_power =
         |id: &Id| live[id.index()] && matches!(graph.node(*id).op, Op::Apply(Prim::PowInt(_)));
@@ -28,7 +41,7 @@ pub fn expand_powers<'g>(graph: &'g Graph, roots: &[Id]) -> (Cow<'g, Graph>, Vec
                 out.intern(node.op, node.ty, args)
             }
             (Op::Apply(Prim::PowInt(n)), &[base]) if n.unsigned_abs() <= MAX_EXPANDED => {
-                power(out, node.ty, base, n)
+                power(out, node.ty, base, n, calls)
             }
             _ => out.intern(node.op, node.ty, args),
         }
@@ -36,13 +49,18 @@ pub fn expand_powers<'g>(graph: &'g Graph, roots: &[Id]) -> (Cow<'g, Graph>, Vec
     (Cow::Owned(out), roots)
 }
 
-fn power(g: &mut Graph, ty: Ty, base: Id, n: i32) -> Id {
+fn power(g: &mut Graph, ty: Ty, base: Id, n: i32, calls: &RangeInclusive<u32>) -> Id {
     if n == -2 {
         let one = g.real(1.0);
         let inverse = g.intern(Op::Apply(Prim::Div), ty, &[one, base]);
         return g.intern(Op::Apply(Prim::Mul), ty, &[inverse, inverse]);
     }
-    let positive = positive_power(g, ty, base, n.unsigned_abs());
+    let size = n.unsigned_abs();
+    let positive = if ty == Ty::Complex && calls.contains(&size) {
+        g.intern(Op::Apply(Prim::PowInt(n.abs())), ty, &[base])
+    } else {
+        positive_power(g, ty, base, size)
+    };
     if n >= 0 {
         return positive;
     }

@@ -16,6 +16,7 @@ const MATH: &str = concat!(
     include_str!("../../shaders/math/gamma.wgsl"),
     include_str!("../../shaders/math/complex.wgsl"),
     include_str!("../../shaders/math/complex_waves.wgsl"),
+    include_str!("../../shaders/math/wave_quotients.wgsl"),
     include_str!("../../shaders/math/complex_gamma.wgsl"),
     include_str!("../../shaders/math/complex_power.wgsl"),
     include_str!("../../shaders/math/pairs.wgsl"),

@@ -7,7 +7,9 @@ use smallvec::SmallVec;
 use super::body::Body;
 use super::scaled::powers_in_products;
 use super::{Format, LowerError, NagaTypes, NumberTypes, Precision};
-use crate::ir::{Graph, Id, Node, Op, Prim, Schedule, Ty, expand_powers, merge_loops};
+use crate::ir::{
+    Graph, Id, NO_CALLS, Node, Op, Prim, SINGLE_CALLS, Schedule, Ty, expand_powers, merge_loops,
+};
 use crate::link::{LinkError, Linker, Provider};
 use crate::table::{self, Gpu};
 
@@ -95,7 +97,11 @@ pub fn lower(
     linker: &mut Linker,
 ) -> Result<Function, LowerError> {
     let (graph, roots) = merge_loops(graph, roots);
-    let (graph, roots) = expand_powers(&graph, &roots);
+    let calls = match interface.precision {
+        Precision::Fast | Precision::Accurate => SINGLE_CALLS,
+        Precision::Extended | Precision::Double => NO_CALLS,
+    };
+    let (graph, roots) = expand_powers(&graph, &roots, &calls);
     let graph = graph.as_ref();
     let types = NagaTypes::insert(&mut linker.out.types);
     let format = interface.precision.format();
