@@ -261,26 +261,29 @@ impl Pass {
             return self.by(Rule::Squares, product);
         }
         let (left, right) = (g.apply(Prim::Abs, &[u]), g.apply(Prim::Abs, &[v]));
-        let (difference, sum) = (g.sub(left, right), g.add(left, right));
-        let product = g.mul(difference, sum);
-        let new = match constant(g, v) {
-            // a numerator stays a product, of which one factor is divided
-            Some(_) if depth == MAX_DEPTH => Self::where_it_cancels(g, u, v, product),
-            _ => product,
+        let difference = g.sub(left, right);
+        // a numerator stays a product, of which one factor is divided
+        let new = if depth == MAX_DEPTH && constant(g, v).is_some() {
+            let beside = square_beside(g, right, difference);
+            Self::unless_written_is_better(g, u, v, beside)
+        } else {
+            let sum = g.add(left, right);
+            g.mul(difference, sum)
         };
         self.by(Rule::Squares, new)
     }
 
-    /// The product for u² - v² where the constant v² is of like size, else as written. Of e the unit of rounding, what is
-    /// written loses e u² in its square and e |u² - v²| in the difference, the product 3 e |u² - v²|: less where
-    /// 2 |u² - v²| < u².
-    fn where_it_cancels(g: &mut Graph, u: Id, v: Id, product: Id) -> Id {
+    /// u² - v² for a constant v as written where it is more than half of u², else `beside`. Of e the unit of rounding, what
+    /// is written loses e u² in its square and e |u² - v²| in the difference: more only where 2 |u² - v²| < u², and there
+    /// the difference of u and v is exact. Where u² leaves the range, `beside` is taken, too. (Without a constant the
+    /// errors of u - v and u + v are opposite ones and compensate: the product is better everywhere.)
+    fn unless_written_is_better(g: &mut Graph, u: Id, v: Id, beside: Id) -> Id {
         let [square, other] = [u, v].map(|x| g.apply(Prim::PowInt(2), &[x]));
         let written = g.sub(square, other);
         let size = g.apply(Prim::Abs, &[written]);
         let double = scaled(g, 2.0, size);
-        let condition = less(g, double, square);
-        choose(g, condition, product, written)
+        let condition = less(g, square, double);
+        choose(g, condition, written, beside)
     }
 
     /// z² - v² for a constant v: the real part of (z - v)(z + v), and the imaginary part of z², which does not cancel
@@ -427,6 +430,14 @@ fn times(g: &mut Graph, x: f64, a: Id) -> Id {
     }
     let x = g.real(x);
     g.mul(x, a)
+}
+
+/// (v + d)² - v² = d² + 2 v d, which rounds less than d (2 v + d) where d is small beside v.
+fn square_beside(g: &mut Graph, v: Id, d: Id) -> Id {
+    let square = g.apply(Prim::PowInt(2), &[d]);
+    let double = scaled(g, 2.0, v);
+    let rest = g.mul(double, d);
+    g.add(square, rest)
 }
 
 /// uⁿ⁻¹ + uⁿ⁻² v + … + vⁿ⁻¹
