@@ -6,6 +6,7 @@
 
 pub mod bits;
 pub mod data;
+pub mod dense;
 pub mod measure;
 pub mod report;
 pub mod rewriting;

@@ -6,7 +6,7 @@ use super::guard::{choose, is_real, less};
 use super::pass::{Pass, only_atom};
 use super::polynomial::{Expand, Monomial, Polynomial, build, build_monomial};
 use super::rule::Rule;
-use crate::ir::{Graph, Id, Prim};
+use crate::ir::{Graph, Id, Op, Prim};
 
 impl Pass {
     /// A better form of an operation that is no sum, where there is one.
@@ -22,6 +22,8 @@ impl Pass {
             (Prim::Arg, &[a]) => self.arg_of(g, a),
             (Prim::Mul, &[a, b]) => {
                 let product = self.exp_product(g, a, b, 1.0);
+                // of a divisor by itself, so that its quotient stays one
+                let product = product.or_else(|| self.cardinal(g, id));
                 product.or_else(|| self.constants(g, Prim::Mul, a, b))
             }
             (Prim::Div, &[a, b]) => {
@@ -54,10 +56,21 @@ impl Pass {
             let alone = p.terms.len() == 1;
             sides.push(root(g, monomial, *value, alone)?);
         }
-        let new = match sides.as_slice() {
-            [one] => g.apply(Prim::Abs, &[*one]),
+        flatten(g, &mut sides);
+        let length = match sides.as_slice() {
+            [one] => {
+                let new = g.apply(Prim::Abs, &[*one]);
+                return self.by(Rule::Hypot, new);
+            }
             [_, _] => g.apply(Prim::Hypot, &sides),
             _ => g.apply(Prim::Hypot3, &sides),
+        };
+        // the rounding of a side that is a product counts twice in its square, those of the factors of a written square do not
+        let rounds_as_written = p.terms.iter().all(|(m, c)| is_side(m, *c));
+        let new = if rounds_as_written {
+            length
+        } else {
+            root_in_middle_of_range(g, self.plain(a), length)
         };
         self.by(Rule::Hypot, new)
     }
@@ -102,6 +115,10 @@ impl Pass {
                 if n % 2 == 0 && is_real(g, x) && self.on(Rule::LogPower) =>
             {
                 let new = Self::times_log(g, f64::from(n), x);
+                self.by(Rule::LogPower, new)
+            }
+            (Some(Prim::Mul), &[x, y]) if x == y && is_real(g, x) && self.on(Rule::LogPower) => {
+                let new = Self::times_log(g, 2.0, x);
                 self.by(Rule::LogPower, new)
             }
             (Some(Prim::Div), &[n, d]) => self.log_of_quotient(g, a, n, d),
@@ -368,6 +385,40 @@ fn root(g: &mut Graph, monomial: &Monomial, value: f64, rounded: bool) -> Option
         Some(product) => g.mul(factor, product),
         None => factor,
     })
+}
+
+/// Puts the sides of a length of two in its place, where it is one of two sides.
+fn flatten(g: &Graph, sides: &mut SmallVec<[Id; 3]>) {
+    let is_length = |id: &Id| g.node(*id).op == Op::Apply(Prim::Hypot);
+    if sides.len() == 2
+        && let Some(place) = sides.iter().position(is_length)
+    {
+        let inner = sides.remove(place);
+        sides.extend(g.node(inner).args.iter().copied());
+    }
+}
+
+/// Whether the root of a monomial is an atom, but for a power of two, or a constant that single precision holds with its
+/// square.
+fn is_side(monomial: &Monomial, value: f64) -> bool {
+    let is_single = |x: f64| f64::from(x as f32) == x;
+    match monomial.as_slice() {
+        [] => is_single(value) && is_single(value.sqrt()),
+        [(_, 2)] => is_exact_inverse(value),
+        _ => false,
+    }
+}
+
+/// The root of a sum of squares as it is written where the sum is so far from the ends of the range of single precision that
+/// none of its terms counts and was lost, else `outside`.
+fn root_in_middle_of_range(g: &mut Graph, sum: Id, outside: Id) -> Id {
+    let [low, high] = [1e-30, 1e30].map(|x| g.real(x));
+    // the maximum hides the sum of squares from the rule that made this
+    let held = g.apply(Prim::Max, &[sum, low]);
+    let written = g.apply(Prim::Sqrt, &[held]);
+    let (is_above, is_below) = (less(g, low, sum), less(g, sum, high));
+    let new = choose(g, is_below, written, outside);
+    choose(g, is_above, new, outside)
 }
 
 /// Whether 1/c is exact: c is a power of two.

@@ -200,10 +200,17 @@ impl Pass {
                 .terms
                 .push((Monomial::from_slice(&[scaled]), *value));
         }
+        // a sum or difference of two sides is of their size
+        let mut sized = down.clone();
+        for &(atom, _) in above.terms.iter().flat_map(|(monomial, _)| monomial) {
+            if joins_two(g, atom, &sides) && small(&sized, atom).is_none() {
+                sized.push((atom, scales.times(g, atom)));
+            }
+        }
         let mut squares = Polynomial::default();
         let mut rest: SmallVec<[(Monomial, f64); 8]> = SmallVec::new();
         for (monomial, value) in &above.terms {
-            match twice_scaled(&down, monomial) {
+            match twice_scaled(&sized, monomial) {
                 Some(scaled) => squares.terms.push((scaled, *value)),
                 None => rest.push((monomial.clone(), *value)),
             }
@@ -337,6 +344,13 @@ fn witnesses(g: &Graph, id: Id) -> SmallVec<[Id; 4]> {
         }
     }
     SmallVec::from_slice(&[id])
+}
+
+/// Whether a node is a sum or difference of two of some others.
+fn joins_two(g: &Graph, id: Id, others: &[Id]) -> bool {
+    let node = g.node(id);
+    matches!(node.op, Op::Apply(Prim::Add | Prim::Sub))
+        && node.args.iter().all(|a| others.contains(a))
 }
 
 /// The scaled form of one of the numbers that are squared.

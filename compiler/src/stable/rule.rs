@@ -61,8 +61,8 @@ rules! {
         "only where both differences are simplified by other rules",
         "discrete product rule";
     Squares "squares", false, "real and complex":
-        "a² - b² = (a - b)·(a + b)",
-        "reals everywhere, in a sum of two terms, and of a constant b where 2|a² - b²| < a², since elsewhere the product rounds more; |a| and |b| are taken, so that an exact zero is +0 as written. Complex a and constant b: only the real part is taken from the product, the imaginary part from a², where it does not cancel and its sign chooses the side of a cut. a² may overflow where the product does not. Not before differentiation: (2a)' is better than the derivative of the product",
+        "a² - b² = (a - b)·(a + b), (a - b)² + 2·b·(a - b) for a constant b",
+        "reals everywhere, in a sum of two terms: the errors of a - b and a + b compensate. Of a constant b as written where a² < 2|a² - b²|, since there nothing cancels; |a| and |b| are taken, so that an exact zero is +0 as written. Complex a and constant b: only the real part is taken from the product, the imaginary part from a², where it does not cancel and its sign chooses the side of a cut. a² may overflow where the product does not. Not before differentiation: (2a)' is better than the derivative of the product",
         "D. Goldberg, What every computer scientist should know about floating-point arithmetic, ACM Comput. Surv. 23 (1991), section 1.4";
     Cubes "cubes", false, "real and complex":
         "a³ - b³ = (a - b)·(a² + a·b + b²), and so on for aⁿ - bⁿ, n = 5, 7",
@@ -190,7 +190,7 @@ rules! {
         "factorisation";
     Hypot "hypot", true, "real":
         "√(a² + b²) = hypot(a, b), √(a² + b² + c²) = length(a, b, c), √(c·a²) = √c·|a|",
-        "everywhere, constants that are squares among the terms, too; does not overflow, nor underflow, where the result does not. As in C99, infinite where an argument is, even beside a NaN",
+        "everywhere, constants that are squares among the terms, too; does not overflow, nor underflow, where the result does not. Where a or b is a product, as written while the sum of the squares is between 10⁻³⁰ and 10³⁰: the rounding of the product would count twice. As in C99, infinite where an argument is, even beside a NaN",
         "W. Kahan 1987; C99 7.12.7.3";
     Asinh "asinh", true, "real":
         "log(x + √(x² + 1)) = asinh x, log(x + √(x² - 1)) = acosh x",

@@ -260,27 +260,33 @@ impl Pass {
             let product = self.squares_of_parts(g, a, u, v)?;
             return self.by(Rule::Squares, product);
         }
-        let (left, right) = (g.apply(Prim::Abs, &[u]), g.apply(Prim::Abs, &[v]));
-        let (difference, sum) = (g.sub(left, right), g.add(left, right));
-        let product = g.mul(difference, sum);
-        let new = match constant(g, v) {
-            // a numerator stays a product, of which one factor is divided
-            Some(_) if depth == MAX_DEPTH => Self::where_it_cancels(g, u, v, product),
-            _ => product,
+        // a numerator stays a product, of which one factor is divided
+        let new = if depth == MAX_DEPTH && (is_step(g, u) || is_step(g, v)) {
+            Self::beside_constant(g, u, v)
+        } else {
+            let (left, right) = (g.apply(Prim::Abs, &[u]), g.apply(Prim::Abs, &[v]));
+            let (difference, sum) = (g.sub(left, right), g.add(left, right));
+            g.mul(difference, sum)
         };
         self.by(Rule::Squares, new)
     }
 
-    /// The product for u² - v² where the constant v² is of like size, else as written. Of e the unit of rounding, what is
-    /// written loses e u² in its square and e |u² - v²| in the difference, the product 3 e |u² - v²|: less where
-    /// 2 |u² - v²| < u².
-    fn where_it_cancels(g: &mut Graph, u: Id, v: Id, product: Id) -> Id {
+    /// u² - v², of which one is a constant, as written where it is more than half of the square of the other, x², else from
+    /// x - c. Of e the unit of rounding, what is written loses e x² in its square and e |x² - c²| in the difference: more
+    /// only where 2 |x² - c²| < x², and there x - c is exact. Where x² leaves the range, that form is taken, too. (Without
+    /// a constant the errors of u - v and u + v are opposite ones and compensate: the product is better everywhere.)
+    fn beside_constant(g: &mut Graph, u: Id, v: Id) -> Id {
+        let (x, c) = if is_step(g, v) { (u, v) } else { (v, u) };
         let [square, other] = [u, v].map(|x| g.apply(Prim::PowInt(2), &[x]));
         let written = g.sub(square, other);
-        let size = g.apply(Prim::Abs, &[written]);
-        let double = scaled(g, 2.0, size);
-        let condition = less(g, double, square);
-        choose(g, condition, product, written)
+        let [size, from] = [x, c].map(|x| g.apply(Prim::Abs, &[x]));
+        let difference = g.sub(size, from);
+        let beside = square_beside(g, from, difference);
+        let beside = if x == u { beside } else { g.neg(beside) };
+        let half = g.apply(Prim::Abs, &[written]);
+        let (most, double) = (g.apply(Prim::PowInt(2), &[x]), scaled(g, 2.0, half));
+        let condition = less(g, most, double);
+        choose(g, condition, written, beside)
     }
 
     /// z² - v² for a constant v: the real part of (z - v)(z + v), and the imaginary part of z², which does not cancel
@@ -427,6 +433,27 @@ fn times(g: &mut Graph, x: f64, a: Id) -> Id {
     }
     let x = g.real(x);
     g.mul(x, a)
+}
+
+/// Whether a node is a constant, or a choice of two or three, such as a scale.
+fn is_step(g: &Graph, id: Id) -> bool {
+    let mut next = id;
+    for _ in 0..3 {
+        let node = g.node(next);
+        match (node.op, node.args.as_slice()) {
+            (Op::Apply(Prim::Select), &[_, a, b]) if constant(g, a).is_some() => next = b,
+            _ => break,
+        }
+    }
+    constant(g, next).is_some()
+}
+
+/// (v + d)² - v² = d² + 2 v d, which rounds less than d (2 v + d) where d is small beside v.
+fn square_beside(g: &mut Graph, v: Id, d: Id) -> Id {
+    let square = g.apply(Prim::PowInt(2), &[d]);
+    let double = scaled(g, 2.0, v);
+    let rest = g.mul(double, d);
+    g.add(square, rest)
 }
 
 /// uⁿ⁻¹ + uⁿ⁻² v + … + vⁿ⁻¹

@@ -27,6 +27,7 @@ pub struct Canvas {
     uniforms: [wgpu::Buffer; 3],
     pairs: wgpu::Buffer,
     doubles: wgpu::Buffer,
+    mesh: wgpu::Buffer,
     image: wgpu::Buffer,
     target: wgpu::Texture,
     clock: Option<Clock>,
@@ -97,6 +98,8 @@ impl Canvas {
             ],
             pairs: wide(Format::Pair),
             doubles: wide(Format::Double),
+            // no scene of the gallery asks for one
+            mesh: filled(&[0; 16], wgpu::BufferUsages::STORAGE),
             image: device.create_buffer(&wgpu::BufferDescriptor {
                 label: None,
                 size: u64::from(width) * u64::from(height) * 4,
@@ -182,11 +185,11 @@ impl Canvas {
             Pipeline::Compute | Pipeline::Linear => wgpu::ShaderStages::COMPUTE,
             Pipeline::Fragment => wgpu::ShaderStages::FRAGMENT,
         };
-        let mut entries: Vec<_> = [0, 1, 2, 3]
+        let mut entries: Vec<_> = [0, 1, 2, 3, 4]
             .into_iter()
             .map(|k| {
                 let ty = match k {
-                    3 => wgpu::BufferBindingType::Storage { read_only: true },
+                    3 | 4 => wgpu::BufferBindingType::Storage { read_only: true },
                     _ => wgpu::BufferBindingType::Uniform,
                 };
                 entry(k, stages, ty)
@@ -194,7 +197,7 @@ impl Canvas {
             .collect();
         if pipeline == Pipeline::Compute {
             entries.push(entry(
-                4,
+                5,
                 stages,
                 wgpu::BufferBindingType::Storage { read_only: false },
             ));
@@ -261,10 +264,10 @@ impl Canvas {
             Format::Double => &self.doubles,
         };
         let mut buffers: Vec<(u32, &wgpu::Buffer)> = (0..).zip(&self.uniforms).collect();
-        buffers.push((3, wide));
+        buffers.extend([(3, wide), (4, &self.mesh)]);
         let pipeline = match pass {
             Pass::Compute(_) => {
-                buffers.push((4, &self.image));
+                buffers.push((5, &self.image));
                 Pipeline::Compute
             }
             Pass::Fragment(_) => Pipeline::Fragment,

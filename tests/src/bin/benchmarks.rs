@@ -3,12 +3,15 @@
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use clap::Parser;
 use pullback_compiler::lower::Precision;
 use pullback_runtime::{AdapterChoice, Gpu};
 use pullback_tests::benchmarks::data::{Benchmark, COLLECTIONS, collection};
+use pullback_tests::benchmarks::dense;
 use pullback_tests::benchmarks::measure::{Machine, Way, measure_all};
 use pullback_tests::benchmarks::report::{Style, details, json, telling, totals, ways};
 use pullback_tests::benchmarks::store::Store;
@@ -40,9 +43,9 @@ struct Options {
     /// A file that keeps what was measured: a run that was stopped goes on, and one after a change measures what has changed
     #[arg(long)]
     store: Option<PathBuf>,
-    /// Only benchmarks whose name (collection/file/place) contains this
-    #[arg(long, default_value = "")]
-    only: String,
+    /// Only benchmarks whose name (collection/file/place) contains one of these
+    #[arg(long, value_delimiter = ',')]
+    only: Vec<String>,
     /// Only benchmarks on which cancellation dominates
     #[arg(long)]
     cancelling: bool,
@@ -58,6 +61,9 @@ struct Options {
     /// Prints JSON, and nothing else
     #[arg(long)]
     json: bool,
+    /// Compares `accurate` with and without rewrites at 4,096 points of each formula, and prints nothing else
+    #[arg(long)]
+    dense: bool,
 }
 
 fn main() -> ExitCode {
@@ -88,8 +94,10 @@ fn run(options: &Options) -> Result<(), String> {
         fits.extend(some);
         unfit.extend(others);
     }
-    let wanted =
-        |b: &&Benchmark| b.id.contains(&options.only) && (!options.cancelling || b.cancels());
+    let is_named = |b: &Benchmark| {
+        options.only.is_empty() || options.only.iter().any(|word| b.id.contains(word))
+    };
+    let wanted = |b: &&Benchmark| is_named(b) && (!options.cancelling || b.cancels());
     let asked: Vec<&Benchmark> = fits.iter().filter(wanted).collect();
     let start = Instant::now();
     let progress = |done: usize| {
@@ -99,6 +107,9 @@ fn run(options: &Options) -> Result<(), String> {
             let _ = writeln!(std::io::stderr(), "{done} of {}, {seconds} s", asked.len());
         }
     };
+    if options.dense {
+        return dense_table(&asked, &machines, &progress);
+    }
     let mut rows = Vec::new();
     let mut refused = Vec::new();
     for row in measure_all(&asked, &machines, &ways, &store, &progress) {
@@ -139,6 +150,40 @@ fn run(options: &Options) -> Result<(), String> {
     match refused.len() {
         0 => Ok(()),
         n => Err(format!("{n} measurements were refused")),
+    }
+}
+
+/// Prints how the formulas do with and without rewrites at many points; some that are worse are an error.
+fn dense_table(
+    asked: &[&Benchmark],
+    machines: &[Machine],
+    progress: &(impl Fn(usize) + Sync),
+) -> Result<(), String> {
+    let next = AtomicUsize::new(0);
+    let found = Mutex::new((Vec::new(), Vec::new()));
+    let work = |machine: &Machine| {
+        while let Some(benchmark) = asked.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let pair = dense::rewritten(benchmark, machine);
+            let Ok(mut found) = found.lock() else { return };
+            match pair {
+                Ok(pair) => found.0.extend(pair),
+                Err(problem) => found.1.push(problem),
+            }
+            progress(next.load(Ordering::Relaxed));
+        }
+    };
+    std::thread::scope(|scope| {
+        for machine in machines {
+            scope.spawn(|| work(machine));
+        }
+    });
+    let (pairs, refused) = found.into_inner().map_err(|e| e.to_string())?;
+    print!("{}", dense::table(&pairs));
+    let worse = pairs.iter().filter(|p| p.is_worse()).count();
+    match (refused.as_slice(), worse) {
+        ([], 0) => Ok(()),
+        ([], _) => Err(format!("rewrites make {worse} formulas worse")),
+        (refused, _) => Err(refused.join("\n")),
     }
 }
 
