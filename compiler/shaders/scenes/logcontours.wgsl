@@ -42,6 +42,7 @@ fn field_grad(offset: vec2f) -> vec3f { return vec3f(); }
 struct Octave {
     finest: i32,
     blend: f32,
+    scale: f32,
 }
 
 struct Key {

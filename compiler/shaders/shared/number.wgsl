@@ -12,11 +12,17 @@ fn is_finite(x: f32) -> bool {
     return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
 }
 
+// Whether a sum of squares is so far from the ends of the range, 1e-30 to 1e37, that nothing in it was lost. Bits, which
+// tell NaN too.
+fn is_moderate(squared: f32) -> bool {
+    return bitcast<u32>(squared) - 0x0da24260u < 0x6f4e7b62u;
+}
+
 // Euclidean length without overflow or underflow; infinite where a component is. No NaN may come in. Squares are of
 // v over its largest component only where they would leave the range.
 fn length2_safe(v: vec2f) -> f32 {
     let squared = dot(v, v);
-    if (squared > 1e-30) & (squared < 1e37) {
+    if is_moderate(squared) {
         return sqrt(squared);
     }
     let size = max(abs(v.x), abs(v.y));
@@ -29,7 +35,7 @@ fn length2_safe(v: vec2f) -> f32 {
 // Length of a gradient, at most 1e37; -1 where it is not known (NaN).
 fn gradient_length(v: vec2f) -> f32 {
     let squared = dot(v, v);
-    if (squared > 1e-30) & (squared < 1e37) {
+    if is_moderate(squared) {
         return sqrt(squared);
     }
     if is_nan(v.x) || is_nan(v.y) {

@@ -64,7 +64,15 @@ impl Program {
     pub fn charges(&self, issued: &Issued) -> Vec<Charge> {
         let mut all: Vec<Charge> = Vec::new();
         for (place, (inst, &times)) in self.code.iter().zip(&issued.0).enumerate() {
-            let (mut kind, weight) = weight(inst.op);
+            let (mut kind, mut weight) = weight(inst.op);
+            if inst.b.is_uniform() {
+                // a product with a reciprocal that is known
+                match inst.op {
+                    Op::Float2(_, Float2::Div) => weight = 1,
+                    Op::Int2(_, Int2::Div | Int2::Rem) => weight = 4,
+                    _ => {}
+                }
+            }
             let decides = inst.a.is_uniform() && kind == Kind::Flow;
             let same = inst.d.is_uniform() && kind != Kind::Flow && kind != Kind::Memory;
             if decides || same {
