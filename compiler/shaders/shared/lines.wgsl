@@ -173,14 +173,17 @@ fn fract_of(x: f32) -> f32 {
 // Lines of constant width at the integers of u, which changes by `rate` per pixel. Where they crowd they thin out to an even
 // tone, and they end where f32 no longer resolves the place between two of them.
 fn even_lines(u: f32, rate: f32, width: f32) -> f32 {
-    if (abs(u) > 4194304.0) | (rate <= 0.0) {
+    if (abs(u) > 4194304.0) | (rate < 1e-30) {
         return 0.0;
     }
-    let per_pixel = clamp(rate, 1e-30, 1e30);
-    let apart = 1.0 / per_pixel;
+    let apart = 1.0 / rate;
+    let away = abs(offset_from_integer(u)) * apart;
+    if apart > max(width / CROWDED, width + sample_window()) {
+        // none is dimmed, and no sample sees two
+        return coverage_of_line(away, width) * (1.0 - smoothstep(0.5, 4.0, rate));
+    }
     let dimming = min(CROWDED / max(width, 1e-20) * apart, 1.0);
-    let covered = coverage_of_lines(abs(offset_from_integer(u)) * apart, apart, per_pixel, width);
-    return covered * dimming * (1.0 - smoothstep(0.5, 4.0, rate));
+    return coverage_of_lines(away, apart, rate, width) * dimming * (1.0 - smoothstep(0.5, 4.0, rate));
 }
 
 // Lines may darken an area by no more than this on average, however dense they are.

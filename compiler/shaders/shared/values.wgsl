@@ -24,14 +24,13 @@ fn value_colour(palette: u32, value: f32, scale: f32) -> vec3f {
     return palette_colour(palette, saturate_value(value, scale));
 }
 
-// Mean colour where the value runs linearly over value ± reach. In units of `scale`: where the saturated value changes by less
-// than 0.05 it is the colour in the middle, off by about half a step of 8 bits at most; not beside a map's kink at 0, unless the
-// reach is below 0.05. Up to 0.15 two points: the middles of both sides of 0, if that is inside, else those of Gauss.
+// Mean colour where the value runs linearly over value ± reach. In units of `scale`: below 0.05 it is the colour in the middle,
+// which is off by less than half a step of 8 bits, but where a map has a kink at 0; up to 0.15 two points: the middles of both
+// sides of 0, if that is inside, else those of Gauss.
 fn mean_value_colour(palette: u32, value: f32, reach: f32, scale: f32) -> vec3f {
     let x = clamp(value / scale, -1e18, 1e18);
     let r = reach / scale;
-    let slope = inverseSqrt(1.0 + x * x);
-    if (r < select(0.05, 0.1, abs(x) > r)) & (r * (slope * slope * slope) < 0.05) {
+    if r < 0.05 {
         return value_colour(palette, x, 1.0);
     }
     if r < 0.15 {
