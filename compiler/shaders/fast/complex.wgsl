@@ -20,7 +20,7 @@ fn complex_square(z: vec2f) -> vec2f {
 /// 1 / z = z̄ / |z|².
 fn complex_inverse(z: vec2f) -> vec2f {
     let squared = dot(z, z);
-    if (squared > 1e-30) & (squared < 1e37) {
+    if is_moderate(squared) {
         let over = 1.0 / squared;
         return vec2f(z.x * over, -z.y * over);
     }
@@ -43,7 +43,7 @@ fn inverse_of_extreme(z: vec2f) -> vec2f {
 /// z / w.
 fn complex_div(z: vec2f, w: vec2f) -> vec2f {
     let squared = dot(w, w);
-    if (squared > 1e-30) & (squared < 1e37) {
+    if is_moderate(squared) {
         let over = 1.0 / squared;
         return vec2f(z.x * w.x + z.y * w.y, z.y * w.x - z.x * w.y) * over;
     }

@@ -2,10 +2,16 @@
 
 fn real_hypot3(x: f32, y: f32, z: f32) -> f32 { return 0.0; }
 
+/// Whether a sum of squares is so far from the ends of the range, 1e-30 to 1e37, that nothing in it was lost. Bits, which
+/// tell NaN too.
+fn is_moderate(squared: f32) -> bool {
+    return bitcast<u32>(squared) - 0x0da24260u < 0x6f4e7b62u;
+}
+
 /// √(x² + y²), with care where a square leaves the range.
 fn real_hypot(x: f32, y: f32) -> f32 {
     let squared = x * x + y * y;
-    if (squared > 1e-30) & (squared < 1e37) {
+    if is_moderate(squared) {
         return sqrt(squared);
     }
     return real_hypot3(x, y, 0.0);

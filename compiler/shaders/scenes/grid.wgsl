@@ -62,6 +62,7 @@ struct Polar {
 struct Octave {
     finest: i32,
     blend: f32,
+    scale: f32,
 }
 
 struct Key {
@@ -105,7 +106,7 @@ fn coordinates(jet: Jet, polar: Polar) -> Coordinates {
         var second = octave_of_rate(polar.turn_rate, settings.spacing, base);
         // no coarser than a turn: what is divided is the circle, not the line
         if second.finest > 0 {
-            second = Octave(0, 0.0);
+            second = Octave(0, 0.0, 1.0);
         }
         let first = octave_of_rate(polar.octave_rate, settings.spacing, base);
         return Coordinates(

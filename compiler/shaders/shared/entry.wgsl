@@ -25,14 +25,19 @@ fn shade(pixel: vec2f) -> vec4f { return vec4f(); }
 fn srgb_encode(linear: vec3f) -> vec3f { return vec3f(); }
 
 // Adds `many` samples of a regular grid over the pixel whose top-left corner is `corner`, one after the other, from
-// the one in column and row `place` on.
+// the one in column and row `place` on; one at least.
 fn with_samples(before: vec4f, corner: vec2f, place: vec2f, many: u32) -> vec4f {
     let count = f32(max(view.samples, 1u));
     let step = 1.0 / count;
     var at = place + 0.5;
     var sum = before;
-    for (var k = many; k > 0u; k--) {
+    var left = many;
+    loop {
         sum += shade(corner + at * step);
+        left--;
+        if left == 0u {
+            break;
+        }
         at.x += 1.0;
         if at.x > count {
             at = vec2f(0.5, at.y + 1.0);
@@ -61,19 +66,19 @@ fn dither_threshold(pixel: vec2u) -> f32 {
 
 // The mean of samples as a displayable colour, not premultiplied, to be held within 0..1 and rounded to 8 bits by what
 // takes it. A value that 8 bits hold exactly stays as it is.
-fn encoded(sum: vec4f, corner: vec2f) -> vec4f {
+fn encoded(sum: vec4f, pixel: vec2u) -> vec4f {
     let many = f32(sample_count());
     let opaque = clamp(sum.a, 1e-6 * many, many);
     let alpha = sum.a / many;
     let encoded = srgb_encode(clamp(sum.rgb * (1.0 / opaque), vec3f(0.0), vec3f(1.0)));
-    let noise = (dither_threshold(vec2u(corner)) - 0.5) / 255.0;
+    let noise = (dither_threshold(pixel) - 0.5) / 255.0;
     return vec4f(encoded + noise, alpha);
 }
 
 // The displayable colour of a pixel of this tile.
 fn encoded_pixel(local: vec2u) -> vec4f {
     let corner = vec2f(local) + view.tile;
-    return encoded(pixel_sum(corner), corner);
+    return encoded(pixel_sum(corner), local + vec2u(view.tile));
 }
 
 // One triangle that covers the target.
@@ -117,8 +122,10 @@ fn sum_main(@builtin(global_invocation_id) id: vec3u) {
     let first = image[behind + 1u];
     let count = max(view.samples, 1u);
     let place = vec2f(vec2u(first % count, first / count));
-    let many = max(image[behind + 2u], first) - first;
-    store(at, with_samples(stored(at), vec2f(id.xy) + view.tile, place, many));
+    let end = image[behind + 2u];
+    if end > first {
+        store(at, with_samples(stored(at), vec2f(id.xy) + view.tile, place, end - first));
+    }
     if loops_end_early() {
         image[behind] = 1u;
     }
@@ -130,7 +137,7 @@ fn encode_main(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let at = pixel_at(id.xy);
-    image[at] = pack4x8unorm(encoded(stored(at), vec2f(id.xy) + view.tile));
+    image[at] = pack4x8unorm(encoded(stored(at), id.xy + vec2u(view.tile)));
 }
 
 // Place in `image` of a pixel of this tile, of four words.

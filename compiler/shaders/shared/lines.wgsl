@@ -109,13 +109,14 @@ fn base_power(base: f32, n: i32) -> f32 {
 struct Octave {
     finest: i32,
     blend: f32,
+    scale: f32,  // base^-finest
 }
 
 // `rate`: change of the coordinate per pixel.
 fn octave_of_rate(rate: f32, apart: f32, base: f32) -> Octave {
     let place = log2(clamp(rate * apart, 1e-9, 1e37)) / log2(base);
     let finest = ceil(place);
-    return Octave(i32(finest), finest - place);
+    return Octave(i32(finest), finest - place, base_power(base, -i32(finest)));
 }
 
 // Whether f32 tells places within a period apart, u periods from 0: 1 as long as it has 128 of them, 0 from 32 on.
@@ -132,24 +133,31 @@ fn octave_lines(whole: f32, part: f32, rate: f32, octave: Octave, base: f32, cou
     if rate <= 0.0 {
         return 0.0;
     }
-    let step = 1.0 / (f32(max(count, 2u)) - 1.0);
-    var scale = base_power(base, -octave.finest);
+    let octaves = f32(max(count, 2u));
+    let step = 1.0 / (octaves - 1.0);
+    var scale = octave.scale;
     var per_pixel = max(rate * scale, 1e-30);
     var apart = 1.0 / per_pixel;
-    let is_resolved = max(abs(whole), abs(part)) * scale < RESOLVED;
+    let far = max(abs(whole), abs(part));
+    let is_resolved = far * scale < RESOLVED;
+    // then so are those of all other octaves
+    let are_apart = apart > width + sample_window();
     var covered = 0.0;
-    for (var j = 0u; j < max(count, 2u); j++) {
+    for (var j = 0.0; j < octaves; j += 1.0) {
         var u = part * scale;
         if whole != 0.0 {
-            let coarse = whole * scale;
-            u += coarse - floor(coarse);
+            u += fract_of(whole * scale);
         }
-        var weight = min((f32(j) + octave.blend) * step, 1.0);
+        var weight = min((j + octave.blend) * step, 1.0);
         if !is_resolved {
-            weight *= resolved(max(abs(whole), abs(part)) * scale);
+            weight *= resolved(far * scale);
         }
         let away = abs(offset_from_integer(u)) * apart;
-        covered = max(covered, weight * coverage_of_lines(away, apart, per_pixel, width));
+        if are_apart {
+            covered = max(covered, weight * coverage_of_line(away, width));
+        } else {
+            covered = max(covered, weight * coverage_of_lines(away, apart, per_pixel, width));
+        }
         scale /= base;
         per_pixel /= base;
         apart *= base;
@@ -157,17 +165,25 @@ fn octave_lines(whole: f32, part: f32, rate: f32, octave: Octave, base: f32, cou
     return covered;
 }
 
+// x - floor x.
+fn fract_of(x: f32) -> f32 {
+    return x - floor(x);
+}
+
 // Lines of constant width at the integers of u, which changes by `rate` per pixel. Where they crowd they thin out to an even
 // tone, and they end where f32 no longer resolves the place between two of them.
 fn even_lines(u: f32, rate: f32, width: f32) -> f32 {
-    if (abs(u) > 4194304.0) | (rate <= 0.0) {
+    if (abs(u) > 4194304.0) | (rate < 1e-30) {
         return 0.0;
     }
-    let per_pixel = clamp(rate, 1e-30, 1e30);
-    let apart = 1.0 / per_pixel;
+    let apart = 1.0 / rate;
+    let away = abs(offset_from_integer(u)) * apart;
+    if apart > max(width / CROWDED, width + sample_window()) {
+        // none is dimmed, and no sample sees two
+        return coverage_of_line(away, width) * (1.0 - smoothstep(0.5, 4.0, rate));
+    }
     let dimming = min(CROWDED / max(width, 1e-20) * apart, 1.0);
-    let covered = coverage_of_lines(abs(offset_from_integer(u)) * apart, apart, per_pixel, width);
-    return covered * dimming * (1.0 - smoothstep(0.5, 4.0, rate));
+    return coverage_of_lines(away, apart, rate, width) * dimming * (1.0 - smoothstep(0.5, 4.0, rate));
 }
 
 // Lines may darken an area by no more than this on average, however dense they are.
@@ -175,8 +191,8 @@ const CROWDED: f32 = 0.34;
 
 // Squares of both signs along one coordinate, at two octaves of side, the finer one as strong as it has faded in.
 fn octave_squares(u: f32, rate: f32, octave: Octave, base: f32) -> f32 {
-    let place = u * base_power(base, -octave.finest);
-    let window = rate * base_power(base, -octave.finest) * sample_window();
+    let place = u * octave.scale;
+    let window = rate * octave.scale * sample_window();
     let fine = square_train(place, window);
     let coarse = square_train(place / base, window / base);
     if abs(place) < RESOLVED {

@@ -77,7 +77,7 @@ fn polar_from_jet(jet: Jet) -> Polar {
     var squared = dot(w, w);
     var exponent = 0.0;
     var half_scale = 1.0; // 2^(-exponent/2)
-    if !((squared > 1e-30) & (squared < 1e37)) {
+    if !is_moderate(squared) {
         let scaled = scale_value(jet.value);
         w = scaled.mantissa;
         squared = dot(w, w);
@@ -140,7 +140,7 @@ fn part_rates(jet: Jet) -> vec2f {
 // Length of a vector, 0 where it is not known (NaN) or too large for f32.
 fn known_length(v: vec2f) -> f32 {
     let squared = dot(v, v);
-    if (squared > 1e-30) & (squared < 1e37) {
+    if is_moderate(squared) {
         return sqrt(squared);
     }
     if is_nan(v.x) || is_nan(v.y) {

@@ -56,19 +56,24 @@ fn phase_light(turns: f32, rate: f32, style: PhaseStyle) -> f32 {
     return 1.0 - style.ring_depth * (1.0 - saw_train(turns * steps, rate * steps * sample_window()));
 }
 
-// How far towards 1 an exponential rise has come: 1/2 at `fade` octaves, smoothed over the octaves of one sample.
-// The mean of a logistic over a window is nearly a wider logistic of the summed variance.
-fn far_fade(octaves: f32, rate: f32, fade: f32) -> f32 {
+// How steeply an exponential rise over `fade` octaves goes from 0 to 1, smoothed over the octaves of one sample: the mean of
+// a logistic over a window is nearly a wider logistic of the summed variance.
+fn fade_steepness(rate: f32, fade: f32) -> f32 {
     let steepness = 6.0 / max(fade, 1e-3);
     let spread = steepness * min(rate, 1e4) * sample_window() / 6.283185307179586;
-    let x = steepness * (octaves - fade) * inverseSqrt(1.0 + spread * spread);
-    return 1.0 / (1.0 + exp2(-x));
+    return steepness * inverseSqrt(1.0 + spread * spread);
+}
+
+// How far the rise has come: 1/2 at `fade` octaves.
+fn far_fade(octaves: f32, fade: f32, steepness: f32) -> f32 {
+    return 1.0 / (1.0 + exp2(steepness * (fade - octaves)));
 }
 
 // Zeros towards black and poles towards white, up to 88 %, so that rings and hue still show.
 fn blend_extremes(colour: vec3f, octaves: f32, rate: f32, fade: f32) -> vec3f {
-    let darkened = colour * (1.0 - 0.88 * far_fade(-octaves, rate, fade));
-    return mix(darkened, vec3f(1.0), 0.88 * far_fade(octaves, rate, fade));
+    let steepness = fade_steepness(rate, fade);
+    let darkened = colour * (1.0 - 0.88 * far_fade(-octaves, fade, steepness));
+    return mix(darkened, vec3f(1.0), 0.88 * far_fade(octaves, fade, steepness));
 }
 
 // Contour lines of the argument, `count` in a turn; 0: none. Where they crowd they fade out.

@@ -24,8 +24,8 @@ fn value_colour(palette: u32, value: f32, scale: f32) -> vec3f {
     return palette_colour(palette, saturate_value(value, scale));
 }
 
-// Mean colour where the value runs linearly over value ± reach. In units of `scale`: below 0.05 it is the colour in the
-// middle, which is off by less than half a step of 8 bits, but where a map has a kink at 0; up to 0.15 two points: the middles of both
+// Mean colour where the value runs linearly over value ± reach. In units of `scale`: below 0.05 it is the colour in the middle,
+// which is off by less than half a step of 8 bits, but where a map has a kink at 0; up to 0.15 two points: the middles of both
 // sides of 0, if that is inside, else those of Gauss.
 fn mean_value_colour(palette: u32, value: f32, reach: f32, scale: f32) -> vec3f {
     let x = clamp(value / scale, -1e18, 1e18);
@@ -66,11 +66,9 @@ fn coarse_mean_colour(palette: u32, x: f32, r: f32) -> vec3f {
 // Coverage by lines at the integers of u, `per_pixel` to a pixel and `apart` = 1/`per_pixel` pixels from one another.
 fn level_lines(u: f32, per_pixel: f32, apart: f32, width: f32) -> f32 {
     let dimming = min(DENSEST / max(width, 1e-20) * apart, 1.0);
+    let covered = coverage_of_lines(abs(offset_from_integer(u)) * apart, apart, per_pixel, width);
     // past 2²² spacings f32 no longer resolves the place between two lines
-    if abs(u) > 4194304.0 {
-        return min(per_pixel * width, 1.0) * dimming;
-    }
-    return coverage_of_lines(abs(offset_from_integer(u)) * apart, apart, per_pixel, width) * dimming;
+    return select(covered, min(per_pixel * width, 1.0), abs(u) > 4194304.0) * dimming;
 }
 
 // Contour lines of a value.
@@ -88,6 +86,11 @@ fn contour_opacity(value: f32, rate: f32, contours: Contours) -> f32 {
     if rate <= 0.0 {
         return 0.0;
     }
+    return opacity_of_lines(value, rate, contours);
+}
+
+// The same of a value that changes.
+fn opacity_of_lines(value: f32, rate: f32, contours: Contours) -> f32 {
     let u = value / contours.spacing;
     let per_pixel = clamp(rate / contours.spacing, 1e-30, 1e9);
     let apart = 1.0 / per_pixel;
@@ -105,15 +108,20 @@ fn contour_opacity(value: f32, rate: f32, contours: Contours) -> f32 {
 // other way. `rate` is the change of value per pixel, negative where it is not
 // known.
 fn contour_colour(value: f32, rate: f32, palette: u32, scale: f32, contours: Contours, ink: vec3f, pixel: vec2f) -> vec3f {
-    if !is_finite(value) {
-        if is_nan(value) {
-            return undefined_colour(pixel);
-        }
-        return infinite_colour(pixel, palette_colour(palette, sign(value)));
-    }
-    if rate < 0.0 {
-        return value_colour(palette, value, scale);
+    if !is_finite(value) | (rate <= 0.0) {
+        return still_colour(value, palette, scale, pixel);
     }
     let colour = mean_value_colour(palette, value, 0.5 * rate * sample_window(), scale);
-    return mix(colour, ink, contour_opacity(value, rate, contours));
+    return mix(colour, ink, opacity_of_lines(value, rate, contours));
+}
+
+// Of a value that is no number, or does not change, or of which it is not known how it does.
+fn still_colour(value: f32, palette: u32, scale: f32, pixel: vec2f) -> vec3f {
+    if is_nan(value) {
+        return undefined_colour(pixel);
+    }
+    if is_inf(value) {
+        return infinite_colour(pixel, palette_colour(palette, sign(value)));
+    }
+    return value_colour(palette, value, scale);
 }

@@ -1,7 +1,13 @@
 //! What a run costs on a graphics device: instructions that its groups issue, by what they are and by the function that
 //! they come from. No device is asked; it tells two programs of one picture apart.
+//!
+//! Compilers of devices compute nothing twice, and fuse a product with a sum. So values are numbered as they are computed: what has
+//! the number of an earlier one is not counted, and a sum takes the place of the product that it adds.
 
-use super::code::{Float1, Float2, Float3, Int2, Op};
+use std::collections::{HashMap, HashSet};
+
+use super::code::{Float1, Float2, Float3, Inst, Int2, Op};
+use super::lanes::Slot;
 use super::program::Program;
 
 /// Lanes that a device issues an instruction for at once; a group has several of them.
@@ -49,13 +55,110 @@ pub struct Charge {
 
 /// How often each instruction of a program was issued, once for each warp in which a lane ran.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Issued(pub(super) Vec<u64>);
+pub struct Issued {
+    /// Of each instruction.
+    times: Vec<u64>,
+    numbers: Numbers,
+}
+
+impl Issued {
+    /// A group of lanes begins.
+    pub(super) fn begin(&mut self) {
+        self.numbers = Numbers::default();
+    }
+
+    /// An instruction is issued for so many warps; `all`: whether all lanes run.
+    pub(super) fn issue(&mut self, place: usize, inst: &Inst, warps: u64, all: bool) {
+        if self.numbers.is_new(inst, all) {
+            self.times[place] += warps;
+        }
+    }
+}
+
+/// A value as a number: the same for what is computed in the same way.
+type Number = u64;
+
+/// What an instruction computes: itself without its place, and the numbers of its operands.
+type Formula = (Op, u32, [Number; 3]);
+
+/// Numbers of the values that slots hold.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Numbers {
+    next: Number,
+    held: HashMap<Slot, Number>,
+    known: HashMap<Formula, Number>,
+    /// Products that no sum has taken.
+    products: HashSet<Number>,
+}
+
+impl Numbers {
+    /// Notes what an instruction does to its slot; tells whether it has to be issued.
+    fn is_new(&mut self, inst: &Inst, all: bool) -> bool {
+        match inst.op {
+            Op::Copy => {
+                let number = self.of(inst.a);
+                self.held.insert(inst.d, number);
+                return true;
+            }
+            Op::Store if all => {
+                let number = self.of(inst.a);
+                self.held.insert(inst.d, number);
+                return true;
+            }
+            Op::Float1(..) | Op::Float2(..) | Op::Float3(..) | Op::Int1(..) | Op::Int2(..) => {}
+            Op::Compare(..) | Op::And | Op::Or | Op::Xor | Op::Not | Op::Select => {}
+            Op::Convert(..) | Op::BitsOfNearest | Op::NumberOfBits | Op::Index => {}
+            _ => {
+                self.fresh(inst.d);
+                return true;
+            }
+        }
+        let operands = [inst.a, inst.b, inst.c].map(|slot| self.of(slot));
+        let formula = (inst.op, inst.x, operands);
+        if let Some(&number) = self.known.get(&formula) {
+            self.held.insert(inst.d, number);
+            return false;
+        }
+        let number = self.fresh(inst.d);
+        self.known.insert(formula, number);
+        match inst.op {
+            Op::Float2(_, Float2::Mul) => {
+                self.products.insert(number);
+            }
+            Op::Float2(_, Float2::Add | Float2::Sub) => {
+                let mut taken = operands[..2].iter().filter(|&n| self.products.contains(n));
+                if let Some(&product) = taken.next() {
+                    self.products.remove(&product);
+                    return false;
+                }
+            }
+            _ => {}
+        }
+        true
+    }
+
+    fn of(&mut self, slot: Slot) -> Number {
+        match self.held.get(&slot) {
+            Some(&number) => number,
+            None => self.fresh(slot),
+        }
+    }
+
+    fn fresh(&mut self, slot: Slot) -> Number {
+        self.next += 1;
+        self.held.insert(slot, self.next);
+        self.next
+    }
+}
 
 impl Program {
     /// A count of nothing.
     #[must_use]
     pub fn nothing_issued(&self) -> Issued {
-        Issued(vec![0; self.code.len()])
+        Issued {
+            times: vec![0; self.code.len()],
+            numbers: Numbers::default(),
+        }
     }
 
     /// What was issued, by function and kind. Weights are those of a device with a unit for reciprocals, roots, sines,
@@ -63,8 +166,16 @@ impl Program {
     #[must_use]
     pub fn charges(&self, issued: &Issued) -> Vec<Charge> {
         let mut all: Vec<Charge> = Vec::new();
-        for (place, (inst, &times)) in self.code.iter().zip(&issued.0).enumerate() {
-            let (mut kind, weight) = weight(inst.op);
+        for (place, (inst, &times)) in self.code.iter().zip(&issued.times).enumerate() {
+            let (mut kind, mut weight) = weight(inst.op);
+            if inst.b.is_uniform() {
+                // a product with a reciprocal that is known
+                match inst.op {
+                    Op::Float2(_, Float2::Div) => weight = 1,
+                    Op::Int2(_, Int2::Div | Int2::Rem) => weight = 4,
+                    _ => {}
+                }
+            }
             let decides = inst.a.is_uniform() && kind == Kind::Flow;
             let same = inst.d.is_uniform() && kind != Kind::Flow && kind != Kind::Memory;
             if decides || same {

@@ -153,6 +153,11 @@ impl Mask {
         self.count = 0;
     }
 
+    /// Whether all lanes run.
+    pub fn is_full(&self) -> bool {
+        self.lanes.iter().all(|chunk| *chunk == Chunk::splat(TRUE))
+    }
+
     /// Parts of the group, of so many chunks each, with a lane that runs.
     pub fn parts(&self, chunks: u32) -> u64 {
         let mut parts = 0;

@@ -165,6 +165,9 @@ impl<'p> Machine<'p> {
     ) -> Result<(), Fault> {
         self.mask = Mask::first(count.min(LANES));
         self.returns.clear();
+        if let Some(issued) = &mut self.issued {
+            issued.begin();
+        }
         self.begin_sample();
         self.execute(limits, observer)
     }
@@ -183,7 +186,8 @@ impl<'p> Machine<'p> {
         let mut pc = 0;
         while let Some(inst) = program.code.get(pc) {
             if let Some(issued) = &mut self.issued {
-                issued.0[pc] += self.mask.parts((WARP / WIDTH) as u32);
+                let warps = self.mask.parts((WARP / WIDTH) as u32);
+                issued.issue(pc, inst, warps, self.mask.is_full());
             }
             pc += 1;
             match inst.op {

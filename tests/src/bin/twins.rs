@@ -123,8 +123,12 @@ fn counts(options: &Options) -> Result<(), Error> {
         for (name, count) in ["fast", "twin"].iter().zip(&both) {
             println!("{}", count_row(twin.scene, ratio, name, count));
         }
-        for (name, slots) in both[0].functions().iter().take(options.functions) {
-            println!("{slots:10.1} {name}");
+        let [ours, theirs] = [0, 1].map(|k| both[k].functions());
+        for k in 0..options.functions {
+            let shown = |of: Option<&(String, f64)>| {
+                of.map_or(String::new(), |(name, slots)| format!("{slots:8.1} {name}"))
+            };
+            println!("{:40}{}", shown(ours.get(k)), shown(theirs.get(k)));
         }
     }
     Ok(())
