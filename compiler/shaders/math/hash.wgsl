@@ -14,7 +14,7 @@ fn hash_coordinate(x: f32) -> u32 {
     let large = (bits & 0x7fffffffu) >= 0x4f000000u;
     let whole = bitcast<u32>(i32(select(floor(x), 0.0, large)));
     // a negative subnormal may count as 0 for floor
-    let below = select(whole, 0xffffffffu, bits > 0x80000000u && bits < 0x80800000u);
+    let below = select(whole, 0xffffffffu, bits - 0x80000001u < 0x7fffffu);
     return select(below, bits, large);
 }
 
@@ -26,6 +26,7 @@ fn real_hash(x: f32, y: f32, z: f32, w: f32) -> f32 {
     let inner = hash_word(hash_coordinate(z) + hash_word(hash_coordinate(w)));
     let word = hash_word(hash_coordinate(x) + hash_word(hash_coordinate(y) + inner));
     let value = f32(word >> 8u) * 5.9604645e-8;
-    let finite = is_finite(x) && is_finite(y) && is_finite(z) && is_finite(w);
+    // without a branch, so that what neighbours share is computed once
+    let finite = is_finite(x) & is_finite(y) & is_finite(z) & is_finite(w);
     return select(make_nan(x), value, finite);
 }

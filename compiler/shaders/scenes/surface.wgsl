@@ -202,68 +202,75 @@ struct Search {
 
 // The first hit on a path. The inner loop only walks, so that rays side by side walk together to where each has
 // something to search, and then search together. Drivers copy a function to where it is called, and f may be long:
-// samples are taken in this one place. Most steps hold nothing, which a few comparisons tell.
+// samples are taken in this one place.
 fn march(path: Path) -> Hit {
     if !(path.extent > 0.0) {
         return NO_HIT;
     }
     let count = f32(path.count);
     let step = path.extent / count;
-    // f - level and its slope at the ends of the last step
+    // f - level and its slope at the ends of the last step, the k-th
     var near: vec2f;
     var far: vec2f;
-    var search: Search;
+    var k = -1.0;
     var t = 0.0;
-    var k = 0.0;
+    var search: Search;
     loop {
-        var found: vec2f;
+        // the step that is searched, to be gone on from
+        let before = near;
+        let after = far;
+        let walked = k;
+        // a search wants one sample
+        let last = select(-2.0, count - 1.0, search.mode == WALK);
         var promising = false;
         loop {
-            found = field_ray(path.ray.origin, path.ray.direction, t) - vec2f(settings.level, 0.0);
-            if search.mode != WALK {
-                break;
-            }
-            near = select(far, found, k == 0.0);
-            far = found;
-            promising = may_hold(near, far, step);
+            near = far;
+            far = field_ray(path.ray.origin, path.ray.direction, t) - vec2f(settings.level, 0.0);
             k += 1.0;
-            if promising | (k > count) {
+            if !is_plain(near, far) {
+                promising = (k > 0.0) & may_hit(sample_of(t - step, near), sample_of(t, far));
+            }
+            if promising | (k > last) {
                 break;
             }
-            t = k * step;
+            t = (k + 1.0) * step;
         }
-        let a = sample_of((k - 2.0) * step, near);
-        let b = sample_of((k - 1.0) * step, far);
         if search.mode != WALK {
-            search = searched(search, a, b, sample_of(t, found));
+            let found = sample_of(t, far);
+            near = before;
+            far = after;
+            k = walked;
+            search = searched(search, near, far, (k - 1.0) * step, step, found);
         } else if promising {
-            search = search_step(a, b);
+            search = search_step(sample_of((k - 1.0) * step, near), sample_of(k * step, far));
         }
         if search.mode == FOUND {
             return Hit(search.t, true, search.touching);
         }
-        if search.mode == WALK && k > count {
+        if search.mode == WALK && k >= count {
             return NO_HIT;
         }
-        t = select(search.t, k * step, search.mode == WALK);
+        t = select(search.t, (k + 1.0) * step, search.mode == WALK);
     }
     return NO_HIT;
 }
 
-// Whether a step of this length may hold the surface, of f - level and its slope at both ends: where signs differ, where one
-// end is undefined, or where the slope turns and there may be a dip.
-fn may_hold(near: vec2f, far: vec2f, step: f32) -> bool {
-    let undefined = is_nan(far.x);
-    if ((near.x < 0.0) != (far.x < 0.0)) | (is_nan(near.x) != undefined) {
-        return true;
-    }
-    if ((near.y < 0.0) == (far.y < 0.0)) | undefined {
-        return false;
-    }
-    return may_dip(sample_of(0.0, near), sample_of(step, far));
+// Whether between two values with their slopes there is plainly nothing, as in most steps: all is defined, and neither the
+// value nor the slope changes its sign. Positive are the bits from 1 to those of infinity; compilers may assume that there
+// is no NaN.
+fn is_plain(near: vec2f, far: vec2f) -> bool {
+    return (bitcast<u32>(near.x * far.x) - 1u < 0x7f800000u) & (near.y * far.y > 0.0);
 }
 
-// A search between two samples of which `may_hold` is true.
+// Whether the step from a to b may hold the surface.
+fn may_hit(a: Sample, b: Sample) -> bool {
+    if a.valid && b.valid {
+        return opposite(a, b) || may_dip(a, b);
+    }
+    return a.valid != b.valid;
+}
+
+// A search between two samples of which `may_hit` is true.
 fn search_step(a: Sample, b: Sample) -> Search {
     if !a.valid {
         return edge_place(Search(EDGE, 0u, 0.0, a, b, b, 1.0, 1.0, 0.0, false));
@@ -281,13 +288,13 @@ fn search_step(a: Sample, b: Sample) -> Search {
     return dip_place(Search(DIP, 0u, 0.0, a, b, nearest, 1.0, 1.0, 0.0, false));
 }
 
-// A search with the sample that it wanted, in the step from a to b.
-fn searched(search: Search, a: Sample, b: Sample, found: Sample) -> Search {
+// A search with the sample that it wanted, in a step that begins at t.
+fn searched(search: Search, near: vec2f, far: vec2f, t: f32, step: f32, found: Sample) -> Search {
     if search.mode == EDGE {
         return searched_edge(search, found);
     }
     if search.mode == DIP {
-        return searched_dip(search, a, b, found);
+        return searched_dip(search, sample_of(t, near), sample_of(t + step, far), found);
     }
     return searched_crossing(search, found);
 }

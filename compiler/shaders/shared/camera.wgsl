@@ -71,11 +71,12 @@ fn orbit_distance(camera: Camera, half_size: vec3f) -> f32 {
     return select(fitting, camera.distance, camera.distance > 0.0 && camera.projection == 0u);
 }
 
-// From `eye` to `aim`, with the projection of `up` upwards. Where that has no direction some other one is up.
+// From `eye` to `aim`, with the projection of `up` upwards. Where that has no direction some other one is up. All
+// that is seen hangs on these directions: they are rounded with care.
 fn look_at_axes(camera: Camera) -> CameraAxes {
-    let back = direction_or(camera.eye - camera.aim, vec3f(0.0, 0.0, 1.0));
+    let back = scaled_direction(camera.eye - camera.aim, vec3f(0.0, 0.0, 1.0));
     let spare = cross(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), abs(back.z) > 0.9), back);
-    let right = normalize(direction_or(cross(direction_or(camera.up, vec3f(0.0, 0.0, 1.0)), back), spare));
+    let right = normalize(scaled_direction(cross(scaled_direction(camera.up, vec3f(0.0, 0.0, 1.0)), back), spare));
     return CameraAxes(camera.eye, right, cross(back, right), back);
 }
 

@@ -123,16 +123,20 @@ fn coordinate_lines(sight: Sight, t: f32, n: vec3f, spacing: f32, width: f32) ->
     return covered;
 }
 
-// Where coordinates are 0 on a plane: colour of the axis along the nearest such line, and coverage. x is red, y is green, z
-// is blue; on a plane across an axis, the line where one of the other two coordinates is 0 is along the third.
+// Where coordinates are 0 on a plane: colour of the axis along the nearest such line, and coverage; of two that cover as much
+// the first. x is red, y is green, z is blue; on a plane across an axis, the line where one of the other two coordinates is
+// 0 is along the third.
 fn axis_lines(sight: Sight, t: f32, n: vec3f, width: f32) -> vec4f {
     let p = sight.ray.origin + t * sight.ray.direction;
-    let away = select(vec3f(1e9), abs(p) * axis_spread(sight, t, n), axes_across(n));
+    let window = sample_window();
+    // nearer ones cover no more
+    let within = vec3f(0.5 * abs(width - window));
+    let away = select(vec3f(1e9), max(abs(p) * axis_spread(sight, t, n), within), axes_across(n));
     let nearest = min(away.x, min(away.y, away.z));
     let zero = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), away.y <= nearest), vec3f(1.0, 0.0, 0.0), away.x <= nearest);
     let along = abs(cross(n, zero));
     let colour = along.x * vec3f(0.55, 0.03, 0.02) + along.y * vec3f(0.02, 0.30, 0.03) + along.z * vec3f(0.02, 0.06, 0.55);
-    return vec4f(colour, line_coverage(min(nearest, 1e9), width, sample_window()));
+    return vec4f(colour, line_coverage(min(nearest, 1e9), width, window));
 }
 
 fn unit_axis(k: u32) -> vec3f {
