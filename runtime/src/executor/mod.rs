@@ -7,6 +7,7 @@
 mod code;
 mod fault;
 mod float;
+mod hash;
 mod integer;
 mod kernels;
 mod lanes;
