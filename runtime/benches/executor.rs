@@ -1,9 +1,10 @@
 //! Times of the gallery's pictures on the processor, beside the software adapter's for the same pictures in the same run,
 //! with the memory that each core needs, the most that the process took, and how much the pictures differ.
 //!
-//! `cargo bench -p pullback-runtime --bench executor -- [--size N] [--samples N] [--only NAME] [--alone]`
+//! `cargo bench --workspace --bench executor -- [--size N] [--samples N] [--only NAME,NAME] [--alone] [--write]`
 //!
-//! `--alone` leaves the adapter out. Where the system tells it, the time is that of the processor divided by the cores, which
+//! `--only` measures the pictures in whose names one of these is, `--alone` leaves the adapter out, and `--write` puts the table
+//! of a whole run into `docs/executor.md`. Where the system tells it, the time is that of the processor divided by the cores, which
 //! other work on the machine does not lengthen; else that of the clock.
 
 use std::path::Path;
@@ -21,8 +22,9 @@ use pullback_runtime::{AdapterChoice, Frame, Gpu, Pipeline, Renderer, Size, View
 struct Options {
     side: u32,
     samples: u32,
-    only: Option<String>,
+    only: Vec<String>,
     alone: bool,
+    write: bool,
 }
 
 impl Options {
@@ -30,8 +32,9 @@ impl Options {
         let mut options = Self {
             side: 512,
             samples: 1,
-            only: None,
+            only: Vec::new(),
             alone: false,
+            write: false,
         };
         let mut arguments = std::env::args().skip(1);
         while let Some(argument) = arguments.next() {
@@ -43,16 +46,31 @@ impl Options {
             match argument.as_str() {
                 "--size" => options.side = number(value()?)?,
                 "--samples" => options.samples = number(value()?)?,
-                "--only" => options.only = Some(value()?),
+                "--only" => options.only.extend(value()?.split(',').map(str::to_owned)),
                 "--alone" => options.alone = true,
+                "--write" => options.write = true,
                 // from cargo
                 "--bench" => {}
                 other => return Err(format!("unknown argument {other}")),
             }
         }
+        let whole = options.only.is_empty() && !options.alone;
+        if options.write && !(whole && (options.side, options.samples) == (512, 1)) {
+            return Err("--write is for whole runs".to_owned());
+        }
         Ok(options)
     }
+
+    /// Whether a picture is asked for.
+    fn wants(&self, name: &str) -> bool {
+        self.only.is_empty() || self.only.iter().any(|part| name.contains(part))
+    }
 }
+
+/// The head of the table, as `docs/executor.md` has it.
+const HEAD: &str = "| Picture | `reference` | `ieee32` | software adapter | KiB a core | \
+    pixels off by more than 2 of 255: `reference`, `ieee32` |";
+const RULE: &str = "| --- | --- | --- | --- | --- | --- |";
 
 fn main() -> ExitCode {
     match Options::read().and_then(|options| run(&options)) {
@@ -77,10 +95,9 @@ fn run(options: &Options) -> Result<(), String> {
         options.side,
         options.samples * options.samples
     );
-    println!(
-        "| scene | reference | ieee32 | adapter | KiB a core | pixels off by more than 2 of 255 |"
-    );
-    println!("| --- | --- | --- | --- | --- | --- |");
+    println!("{HEAD}\n{RULE}");
+    let mut table = format!("{HEAD}\n{RULE}\n");
+    let mut slowest = (0.0, String::new());
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/gallery");
     let entries = std::fs::read_dir(&folder).map_err(|e| e.to_string())?;
     let mut files: Vec<_> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
@@ -90,21 +107,41 @@ fn run(options: &Options) -> Result<(), String> {
         .filter(|f| f.extension().is_some_and(|e| e == "pull"))
     {
         let name = file.file_stem().unwrap_or_default().to_string_lossy();
-        if options
-            .only
-            .as_ref()
-            .is_some_and(|only| !name.contains(only.as_str()))
-        {
+        if !options.wants(&name) {
             continue;
         }
         let text = std::fs::read_to_string(file).map_err(|e| e.to_string())?;
         let program = compile(&text).program.ok_or(format!("{name} has errors"))?;
-        println!("| {name} {} |", row(&program, options, gpu.as_ref())?);
+        let (seconds, row) = row(&program, options, gpu.as_ref())?;
+        println!("| {name} {row} |");
+        table += &format!("| {name} {row} |\n");
+        if seconds > slowest.0 {
+            slowest = (seconds, name.into_owned());
+        }
+    }
+    println!(
+        "\nslowest in `reference`: {}, {:.2} s",
+        slowest.1, slowest.0
+    );
+    if options.write {
+        write(&table)?;
     }
     if let Some(kib) = most_memory() {
         println!("\nmost memory of the whole run: {} MiB", kib / 1024);
     }
     Ok(())
+}
+
+/// Puts the table in the place of that of `docs/executor.md`.
+fn write(table: &str) -> Result<(), String> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/executor.md");
+    let text = std::fs::read_to_string(&path).map_err(|e| e.to_string())?;
+    let start = text
+        .find(HEAD)
+        .ok_or("docs/executor.md has no such table")?;
+    let end = text[start..].find("\n\n").ok_or("the table has no end")? + start + 1;
+    let text = format!("{}{table}{}", &text[..start], &text[end..]);
+    std::fs::write(&path, text).map_err(|e| e.to_string())
 }
 
 /// The greatest resident memory of this process in KiB, from Linux.
@@ -114,7 +151,8 @@ fn most_memory() -> Option<u64> {
     line.split_whitespace().next()?.parse().ok()
 }
 
-fn row(program: &Program, options: &Options, gpu: Option<&Gpu>) -> Result<String, String> {
+/// Seconds in `reference`, and the columns.
+fn row(program: &Program, options: &Options, gpu: Option<&Gpu>) -> Result<(f64, String), String> {
     let picture = &program.pictures()[0];
     let side = options.side;
     let size = Size {
@@ -166,18 +204,19 @@ fn row(program: &Program, options: &Options, gpu: Option<&Gpu>) -> Result<String
     };
     let off = adapter.as_ref().map_or(String::new(), |(_, pixels)| {
         format!(
-            "{} / {}",
+            "{}, {}",
             different(&reference.1, pixels),
             different(&ieee.1, pixels)
         )
     });
-    Ok(format!(
+    let columns = format!(
         "| {:.2} s | {:.2} s | {} | {} | {off}",
         reference.0,
         ieee.0,
         adapter.map_or(String::new(), |(seconds, _)| format!("{seconds:.2} s")),
         reference.2 / 1024,
-    ))
+    );
+    Ok((reference.0, columns))
 }
 
 /// Seconds that this process has kept each core busy, in the mean; or those of the clock.

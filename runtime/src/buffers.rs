@@ -81,6 +81,23 @@ impl Growing {
     }
 }
 
+/// A place of a compute shader's bindings for a buffer of any size.
+pub(crate) const fn binding(
+    binding: u32,
+    ty: wgpu::BufferBindingType,
+) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    }
+}
+
 /// A uniform buffer of `bytes` bytes.
 pub(crate) fn uniform(gpu: &Gpu, label: &'static str, bytes: usize) -> Result<wgpu::Buffer, Error> {
     fixed(gpu, label, bytes, wgpu::BufferUsages::UNIFORM)

@@ -49,6 +49,21 @@ pub struct GpuEvaluator {
     budget: u64,
 }
 
+/// The bindings of an evaluation shader, of any format: rows, parameters, results, the words of wide numbers, the batch.
+pub(crate) const LAYOUT: wgpu::BindGroupLayoutDescriptor = {
+    use wgpu::BufferBindingType::{Storage, Uniform};
+    wgpu::BindGroupLayoutDescriptor {
+        label: Some("evaluate"),
+        entries: &[
+            buffers::binding(0, Storage { read_only: true }),
+            buffers::binding(1, Uniform),
+            buffers::binding(2, Storage { read_only: false }),
+            buffers::binding(3, Storage { read_only: true }),
+            buffers::binding(4, Uniform),
+        ],
+    }
+};
+
 impl GpuEvaluator {
     /// Loads the module onto the device.
     ///
@@ -57,28 +72,8 @@ impl GpuEvaluator {
     pub fn new(gpu: &Gpu, module: &EvalModule) -> Result<Self, Error> {
         let shader = shader::load(gpu, &module.module, &module.info, module.tier)?;
         let device = gpu.device();
-        let buffer = |binding, ty| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty,
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        };
-        use wgpu::BufferBindingType::{Storage, Uniform};
         let (layout, pipeline) = gpu.guarded("compiling the evaluation pipeline", || {
-            let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some("evaluate"),
-                entries: &[
-                    buffer(0, Storage { read_only: true }),
-                    buffer(1, Uniform),
-                    buffer(2, Storage { read_only: false }),
-                    buffer(3, Storage { read_only: true }),
-                    buffer(4, Uniform),
-                ],
-            });
+            let layout = device.create_bind_group_layout(&LAYOUT);
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some("evaluate"),
                 bind_group_layouts: &[Some(&layout)],

@@ -189,25 +189,13 @@ impl Kernel {
 }
 
 const LAYOUT: wgpu::BindGroupLayoutDescriptor = {
-    const fn entry(binding: u32, ty: wgpu::BufferBindingType) -> wgpu::BindGroupLayoutEntry {
-        wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty,
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        }
-    }
     use wgpu::BufferBindingType::{Storage, Uniform};
     wgpu::BindGroupLayoutDescriptor {
         label: Some("kernel"),
         entries: &[
-            entry(0, Storage { read_only: true }),
-            entry(1, Storage { read_only: false }),
-            entry(2, Uniform),
+            buffers::binding(0, Storage { read_only: true }),
+            buffers::binding(1, Storage { read_only: false }),
+            buffers::binding(2, Uniform),
         ],
     }
 };

@@ -49,7 +49,7 @@ macro_rules! twin {
 const COMMON: &str = include_str!("../twins/common.wgsl");
 
 /// The twins of all scenes.
-pub const TWINS: [Twin; 16] = [
+pub const TWINS: [Twin; 17] = [
     twin!("levels", "chladni", [("color_scale", 0.4)], "levels"),
     twin!("logcontours", "charges", [], "logcontours"),
     twin!("bands", "zone-plate", [], "bands"),
@@ -77,6 +77,7 @@ pub const TWINS: [Twin; 16] = [
         "volumecut"
     ),
     twin!("scatter", "cloud", [], "scatter"),
+    twin!("additive", "hologram", [], "additive"),
     twin!("glow", "ember", [], "glow"),
 ];
 

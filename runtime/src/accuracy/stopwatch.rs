@@ -7,7 +7,7 @@ use pullback_compiler::EvalModule;
 use pullback_compiler::lower::Format;
 
 use crate::uniforms::{self, BatchUniform, MAX_PARAMS, WideWords};
-use crate::{Error, Gpu, buffers, shader};
+use crate::{Error, Gpu, buffers, evaluate, shader};
 
 /// Size of a workgroup of `compute_main`.
 const WORKGROUP: u32 = 64;
@@ -117,7 +117,7 @@ impl<'g> Timed<'g> {
         let batch = buffers::uniform(gpu, "batch", size_of::<BatchUniform>())?;
         let wide = buffers::wide(gpu)?;
         let (pipeline, bindings) = gpu.guarded("compiling the timed pipeline", || {
-            let layout = layout(device);
+            let layout = device.create_bind_group_layout(&evaluate::LAYOUT);
             let around = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some("timed"),
                 bind_group_layouts: &[Some(&layout)],
@@ -216,33 +216,4 @@ impl<'g> Timed<'g> {
             None => Ok(elapsed),
         }
     }
-}
-
-/// The bindings of an evaluation shader, of any format.
-fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    use wgpu::BufferBindingType::{Storage, Uniform};
-    let kinds = [
-        Storage { read_only: true },
-        Uniform,
-        Storage { read_only: false },
-        Storage { read_only: true },
-        Uniform,
-    ];
-    let entries: Vec<_> = (0..)
-        .zip(kinds)
-        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty,
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        })
-        .collect();
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("timed"),
-        entries: &entries,
-    })
 }

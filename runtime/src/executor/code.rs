@@ -145,6 +145,12 @@ pub(super) enum Op {
     BitsOfNearest,
     /// The f64 of the f32 with the bits a.
     NumberOfBits,
+    /// The word of the coordinate a of a lattice point.
+    LatticeWord,
+    /// The permuted sum of the words a and b.
+    HashWords,
+    /// The number of a permuted word.
+    HashNumber,
     /// Components from the start of an array to its element a, added to those in b; the array is `indices[x]`.
     Index,
     /// d = the word a components from b on, x further; 0 beyond the array.

@@ -3,12 +3,22 @@
 use super::code::{Compare, Float1, Float2, Float3, Form, Inst, Int1, Int2};
 use super::float::{self, Float, cheap_function};
 use super::integer::{Integer, convert};
-use super::lanes::{Chunk, Mask, Slot, TRUE, WIDTH};
+use super::lanes::{CHUNKS, Chunk, Mask, Slot, TRUE, WIDTH};
+
+use std::cell::Cell;
 
 /// Memory, and the lanes that run.
 pub(super) struct Lanes<'a> {
     pub memory: &'a mut [Chunk],
     pub mask: &'a Mask,
+}
+
+impl Lanes<'_> {
+    /// Memory that several may look at.
+    #[inline(always)]
+    fn cells(&mut self) -> &[Cell<Chunk>] {
+        Cell::from_mut(&mut *self.memory).as_slice_of_cells()
+    }
 }
 
 /// The one chunk of a uniform.
@@ -28,29 +38,30 @@ pub(super) fn chunks_of(mask: &Mask, uniform: bool) -> &[u32] {
 
 #[inline(always)]
 pub(super) fn map1(lanes: &mut Lanes, inst: &Inst, f: impl Fn(u64) -> u64) {
-    for &c in chunks(lanes.mask, inst.d) {
-        let a = lanes.memory[inst.a.chunk(c)];
-        lanes.memory[inst.d.chunk(c)] = a.map(&f);
+    let (mask, memory) = (lanes.mask, lanes.cells());
+    let (a, d) = (inst.a.row(memory), inst.d.row(memory));
+    for &c in chunks(mask, inst.d) {
+        d.set(c, a.get(c).map(&f));
     }
 }
 
 #[inline(always)]
 pub(super) fn map2(lanes: &mut Lanes, inst: &Inst, f: impl Fn(u64, u64) -> u64) {
-    for &c in chunks(lanes.mask, inst.d) {
-        let a = lanes.memory[inst.a.chunk(c)];
-        let b = lanes.memory[inst.b.chunk(c)];
-        lanes.memory[inst.d.chunk(c)] = a.zip(b, &f);
+    let (mask, memory) = (lanes.mask, lanes.cells());
+    let (a, b, d) = (inst.a.row(memory), inst.b.row(memory), inst.d.row(memory));
+    for &c in chunks(mask, inst.d) {
+        d.set(c, a.get(c).zip(b.get(c), &f));
     }
 }
 
 #[inline(always)]
 fn map3(lanes: &mut Lanes, inst: &Inst, f: impl Fn(u64, u64, u64) -> u64) {
-    for &c in chunks(lanes.mask, inst.d) {
-        let a = lanes.memory[inst.a.chunk(c)].0;
-        let b = lanes.memory[inst.b.chunk(c)].0;
-        let third = lanes.memory[inst.c.chunk(c)].0;
-        let value = Chunk(std::array::from_fn(|i| f(a[i], b[i], third[i])));
-        lanes.memory[inst.d.chunk(c)] = value;
+    let (mask, memory) = (lanes.mask, lanes.cells());
+    let (a, b) = (inst.a.row(memory), inst.b.row(memory));
+    let (third, d) = (inst.c.row(memory), inst.d.row(memory));
+    for &c in chunks(mask, inst.d) {
+        let (a, b, third) = (a.get(c).0, b.get(c).0, third.get(c).0);
+        d.set(c, Chunk(std::array::from_fn(|i| f(a[i], b[i], third[i]))));
     }
 }
 
@@ -87,29 +98,29 @@ pub(super) fn write(memory: &mut [Chunk], d: Slot, c: u32, i: usize, word: u64) 
     }
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn store(lanes: &mut Lanes, inst: &Inst) {
-    for &c in lanes.mask.chunks() {
-        let a = lanes.memory[inst.a.chunk(c)];
-        let d = &mut lanes.memory[inst.d.chunk(c)];
-        *d = a.blend(*d, lanes.mask.lanes[c as usize]);
+    let (mask, memory) = (lanes.mask, lanes.cells());
+    let (a, d) = (inst.a.row(memory), inst.d.row(memory));
+    for &c in mask.chunks() {
+        d.set(
+            c,
+            a.get(c).blend(d.get(c), mask.lanes[(c as usize) % CHUNKS]),
+        );
     }
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn select(lanes: &mut Lanes, inst: &Inst) {
     map3(lanes, inst, |mask, accept, reject| {
         reject ^ ((reject ^ accept) & mask)
     });
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn float1<F: Float>(lanes: &mut Lanes, inst: &Inst, fun: Float1) {
     if float::is_costly(fun) {
-        let double = float::double(fun);
-        let (a, d) = (inst.a, inst.d);
-        each_lane(lanes.memory, lanes.mask, d.is_uniform(), |memory, c, i| {
-            let x = F::from_word(memory[a.chunk(c)].0[i]);
-            write(memory, d, c, i, F::nearest(double(x.double())).word());
-        });
-        return;
+        return costly1::<F>(lanes, inst, fun);
     }
     macro_rules! run {
         ($f:expr) => {{
@@ -120,21 +131,32 @@ pub(super) fn float1<F: Float>(lanes: &mut Lanes, inst: &Inst, fun: Float1) {
     cheap_function!(fun, F, run);
 }
 
+/// A function of which each lane is worth skipping.
+#[inline(never)]
+fn costly1<F: Float>(lanes: &mut Lanes, inst: &Inst, fun: Float1) {
+    let double = float::double(fun);
+    let (a, d) = (inst.a, inst.d);
+    each_lane(lanes.memory, lanes.mask, d.is_uniform(), |memory, c, i| {
+        let x = F::from_word(memory[a.chunk(c)].0[i]);
+        write(memory, d, c, i, F::nearest(double(x.double())).word());
+    });
+}
+
+/// A function of two operands of which each lane is worth skipping.
+#[inline(never)]
+fn costly2<F: Float>(lanes: &mut Lanes, inst: &Inst, double: fn(f64, f64) -> f64) {
+    let (a, b, d) = (inst.a, inst.b, inst.d);
+    each_lane(lanes.memory, lanes.mask, d.is_uniform(), |memory, c, i| {
+        let x = F::from_word(memory[a.chunk(c)].0[i]).double();
+        let y = F::from_word(memory[b.chunk(c)].0[i]).double();
+        write(memory, d, c, i, F::nearest(double(x, y)).word());
+    });
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn float2<F: Float>(lanes: &mut Lanes, inst: &Inst, fun: Float2) {
     if let Some(double) = float::double2(fun) {
-        let (a, b, d) = (inst.a, inst.b, inst.d);
-        each_lane(lanes.memory, lanes.mask, d.is_uniform(), |memory, c, i| {
-            let x = F::from_word(memory[a.chunk(c)].0[i]);
-            let y = F::from_word(memory[b.chunk(c)].0[i]);
-            write(
-                memory,
-                d,
-                c,
-                i,
-                F::nearest(double(x.double(), y.double())).word(),
-            );
-        });
-        return;
+        return costly2::<F>(lanes, inst, double);
     }
     macro_rules! run {
         ($f:expr) => {{
@@ -158,6 +180,7 @@ pub(super) fn float2<F: Float>(lanes: &mut Lanes, inst: &Inst, fun: Float2) {
     }
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn float3<F: Float>(lanes: &mut Lanes, inst: &Inst, fun: Float3) {
     macro_rules! run {
         ($fun:expr) => {
@@ -175,10 +198,12 @@ pub(super) fn float3<F: Float>(lanes: &mut Lanes, inst: &Inst, fun: Float3) {
     }
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn int1<I: Integer>(lanes: &mut Lanes, inst: &Inst, fun: Int1) {
     map1(lanes, inst, |x| I::from_word(x).unary(fun).word());
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn int2<I: Integer>(lanes: &mut Lanes, inst: &Inst, fun: Int2) {
     macro_rules! run {
         ($fun:expr) => {
@@ -198,6 +223,7 @@ pub(super) fn int2<I: Integer>(lanes: &mut Lanes, inst: &Inst, fun: Int2) {
 }
 
 /// Comparisons; those of floats with a NaN do not hold, but for `NotEqual`.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn compare<T: PartialOrd>(
     lanes: &mut Lanes,
     inst: &Inst,
@@ -220,6 +246,7 @@ pub(super) fn compare<T: PartialOrd>(
 }
 
 /// Numbers in another form.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn converted(lanes: &mut Lanes, inst: &Inst, from: Form, to: Form) {
     macro_rules! run {
         ($from:expr, $to:expr) => {

@@ -1,5 +1,7 @@
 //! Lanes: one word of every lane of a group, side by side, eight to a chunk.
 
+use std::cell::Cell;
+
 /// Lanes of a chunk: what is skipped as a whole where none of them is active.
 pub(super) const WIDTH: usize = 8;
 /// Chunks of a group.
@@ -22,33 +24,40 @@ impl Chunk {
         Self([word; WIDTH])
     }
 
+    #[inline(always)]
     pub fn map(self, f: impl Fn(u64) -> u64) -> Self {
         Self(std::array::from_fn(|i| f(self.0[i])))
     }
 
+    #[inline(always)]
     pub fn zip(self, other: Self, f: impl Fn(u64, u64) -> u64) -> Self {
         Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
     }
 
+    #[inline(always)]
     pub fn and(self, other: Self) -> Self {
         self.zip(other, |a, b| a & b)
     }
 
+    #[inline(always)]
     pub fn or(self, other: Self) -> Self {
         self.zip(other, |a, b| a | b)
     }
 
+    #[inline(always)]
     pub fn and_not(self, other: Self) -> Self {
         self.zip(other, |a, b| a & !b)
     }
 
     /// `self` where the mask is set, else `other`.
+    #[inline(always)]
     pub fn blend(self, other: Self, mask: Self) -> Self {
         Self(std::array::from_fn(|i| {
             other.0[i] ^ ((other.0[i] ^ self.0[i]) & mask.0[i])
         }))
     }
 
+    #[inline(always)]
     pub fn any(self) -> bool {
         self.0.iter().fold(0, |all, &word| all | word) != 0
     }
@@ -59,22 +68,46 @@ impl Chunk {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Slot {
     at: u32,
-    step: u32,
+    /// The bits of a chunk's number that count: all, or none.
+    bits: u32,
+}
+
+/// The bits of a chunk's number.
+const BITS: u32 = CHUNKS as u32 - 1;
+const _: () = assert!(CHUNKS.is_power_of_two());
+
+/// The chunks of a slot.
+pub(super) struct Row<'m> {
+    chunks: &'m [Cell<Chunk>; CHUNKS],
+    bits: u32,
+}
+
+impl Row<'_> {
+    /// One of the group's chunks.
+    #[inline(always)]
+    pub fn get(&self, c: u32) -> Chunk {
+        self.chunks[(c & self.bits & BITS) as usize].get()
+    }
+
+    #[inline(always)]
+    pub fn set(&self, c: u32, chunk: Chunk) {
+        self.chunks[(c & self.bits & BITS) as usize].set(chunk);
+    }
 }
 
 impl Slot {
     /// The k-th uniform.
     pub fn uniform(k: u32) -> Self {
-        Self { at: k, step: 0 }
+        Self { at: k, bits: 0 }
     }
 
     /// The k-th register.
     pub fn register(k: u32) -> Self {
-        Self { at: k, step: 1 }
+        Self { at: k, bits: BITS }
     }
 
     pub fn is_uniform(self) -> bool {
-        self.step == 0
+        self.bits == 0
     }
 
     /// Which uniform or register it is, until it is placed.
@@ -88,7 +121,7 @@ impl Slot {
             return self;
         }
         let at = uniforms + self.at * CHUNKS as u32;
-        Self { at, step: 1 }
+        Self { at, ..self }
     }
 
     /// The next of a row of slots that are of one kind, `k` further; for those that are placed.
@@ -101,7 +134,18 @@ impl Slot {
     /// The chunk's place in memory.
     #[inline(always)]
     pub fn chunk(self, c: u32) -> usize {
-        (self.at + self.step * c) as usize
+        (self.at + (self.bits & c)) as usize
+    }
+
+    /// Its chunks in a memory, which goes on for a group behind the last slot.
+    #[inline(always)]
+    pub fn row(self, memory: &[Cell<Chunk>]) -> Row<'_> {
+        let start = self.at as usize;
+        let chunks = <&[_; CHUNKS]>::try_from(&memory[start..start + CHUNKS]);
+        Row {
+            chunks: chunks.expect("as many chunks as a group has"),
+            bits: self.bits,
+        }
     }
 }
 
@@ -136,7 +180,7 @@ impl Mask {
     }
 
     /// Gives each chunk another mask; tells whether any lane runs.
-    #[inline]
+    #[inline(always)]
     pub fn change(&mut self, mut chunk: impl FnMut(usize, Chunk) -> Chunk) -> bool {
         self.count = 0;
         for c in 0..CHUNKS {

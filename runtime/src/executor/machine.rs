@@ -2,8 +2,12 @@
 
 mod compute;
 mod control;
+#[cfg(test)]
+mod tests;
 
 use std::sync::atomic::AtomicBool;
+
+use pulp::{Arch, Simd, WithSimd};
 
 use super::code::{Inst, Op};
 use super::cost::{Issued, WARP};
@@ -71,6 +75,24 @@ pub struct Machine<'p> {
 struct Turns {
     since_entered: u64,
     in_all: u64,
+}
+
+/// What a machine is about to run, in code for the vector instructions of this very processor.
+struct Run<'r, 'p> {
+    machine: &'r mut Machine<'p>,
+    limits: Limits<'r>,
+    observer: &'r mut dyn Observer,
+}
+
+impl WithSimd for Run<'_, '_> {
+    type Output = Result<(), Fault>;
+
+    // What is to be compiled for those instructions has to be written out in here. Not where nothing is optimised: all in one
+    // frame would take a large stack.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        self.machine.execute(self.limits, self.observer)
+    }
 }
 
 impl<'p> Machine<'p> {
@@ -169,7 +191,12 @@ impl<'p> Machine<'p> {
             issued.begin();
         }
         self.begin_sample();
-        self.execute(limits, observer)
+        let machine = self;
+        Arch::new().dispatch(Run {
+            machine,
+            limits,
+            observer,
+        })
     }
 
     /// Counts steps in all from here on.
@@ -181,6 +208,7 @@ impl<'p> Machine<'p> {
         }
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn execute(&mut self, limits: Limits, observer: &mut dyn Observer) -> Result<(), Fault> {
         let program = self.program;
         let mut pc = 0;

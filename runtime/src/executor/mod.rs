@@ -8,6 +8,7 @@ mod code;
 mod cost;
 mod fault;
 mod float;
+mod hash;
 mod integer;
 mod kernels;
 mod lanes;

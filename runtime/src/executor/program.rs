@@ -155,7 +155,8 @@ impl Program {
 
     /// Chunks of memory that a machine needs.
     pub(super) fn chunks(&self) -> usize {
-        self.uniforms.len() + self.registers * CHUNKS
+        // behind the last uniform there is a whole row, too
+        self.uniforms.len() + (self.registers + 1) * CHUNKS
     }
 
     /// Instructions of all functions.

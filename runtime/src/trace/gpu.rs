@@ -108,19 +108,13 @@ fn pipeline(
     let entries: Vec<_> = inputs
         .buffers
         .iter()
-        .map(|input| wgpu::BindGroupLayoutEntry {
-            binding: input.binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty: match input.access {
-                    Access::Uniform => wgpu::BufferBindingType::Uniform,
-                    Access::Read => wgpu::BufferBindingType::Storage { read_only: true },
-                    Access::ReadWrite => wgpu::BufferBindingType::Storage { read_only: false },
-                },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
+        .map(|input| {
+            let ty = match input.access {
+                Access::Uniform => wgpu::BufferBindingType::Uniform,
+                Access::Read => wgpu::BufferBindingType::Storage { read_only: true },
+                Access::ReadWrite => wgpu::BufferBindingType::Storage { read_only: false },
+            };
+            buffers::binding(input.binding, ty)
         })
         .collect();
     gpu.guarded("compiling a traced shader", || {

@@ -2,10 +2,12 @@
 
 use super::Machine;
 use crate::executor::code::{BEYOND, Form, Inst, Op};
+use crate::executor::hash::{hash_number, hash_words, lattice_word};
 use crate::executor::kernels::{self, Lanes, each_lane, map1, map2, write};
 
 impl Machine<'_> {
     /// Instructions that compute.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn compute(&mut self, inst: &Inst) {
         let mut lanes = Lanes {
             memory: &mut self.memory,
@@ -52,6 +54,9 @@ impl Machine<'_> {
             Op::NumberOfBits => map1(lanes, inst, |w| {
                 f64::from(f32::from_bits(w as u32)).to_bits()
             }),
+            Op::LatticeWord => map1(lanes, inst, |w| lattice_word(f64::from_bits(w))),
+            Op::HashWords => map2(lanes, inst, hash_words),
+            Op::HashNumber => map1(lanes, inst, |w| hash_number(w).to_bits()),
             Op::Index => {
                 let array = self.program.indices[inst.x as usize];
                 map2(lanes, inst, |index, before| {

@@ -9,6 +9,7 @@ use crate::executor::lanes::{CHUNKS, Chunk, Mask};
 
 impl Machine<'_> {
     /// Instructions that change which lanes run.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn flow(&mut self, inst: &Inst, pc: &mut usize) {
         let (memory, mask) = (&mut self.memory, &mut self.mask);
         let go_on = match inst.op {
@@ -53,6 +54,7 @@ impl Machine<'_> {
     }
 
     /// The end of a step of a loop.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn repeat(
         &mut self,
         inst: &Inst,

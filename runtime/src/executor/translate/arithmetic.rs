@@ -52,7 +52,11 @@ impl<'m> Translator<'m> {
         // a scalar beside a vector counts for each component
         let at = |parts: &Parts, k: usize| parts[if parts.len() == 1 { 0 } else { k }];
         (0..count)
-            .map(|k| self.binary(op, at(&a, k), at(&b, k)))
+            .map(|k| match op {
+                // hashes are nested in these
+                Op::Int2(Form::U32, Int2::Add) => self.remembered(op, at(&a, k), at(&b, k)),
+                _ => self.binary(op, at(&a, k), at(&b, k)),
+            })
             .collect()
     }
 

@@ -5,6 +5,7 @@ use pullback_compiler::lower::Format;
 use pullback_compiler::table::Meaning;
 
 use super::body::{Body, Known, Returns};
+use super::memory::Maker;
 use super::{Frame, Parts, Translator};
 use crate::executor::code::{Form, Inst, Op};
 use crate::executor::fault::Fault;
@@ -59,9 +60,11 @@ impl<'m> Translator<'m> {
     pub(super) fn function_body(&mut self, body: &mut Body<'m>) -> Result<Parts, Fault> {
         body.returns = self.returns(body, false)?;
         self.pending.push(Vec::new());
+        self.open_block();
         self.begin(body)?;
         self.statements(body, &body.function.body)?;
         self.trace_results(body)?;
+        self.close_block();
         self.join_here();
         Ok(body.results.clone())
     }
@@ -98,6 +101,8 @@ impl<'m> Translator<'m> {
         let mark = self.temporaries.len();
         let parts = if self.plans.stands_in(callee) {
             self.library_call(function, &given)?
+        } else if self.plans.is_word(callee) {
+            self.word(callee, function, given)?
         } else if self.plans.is_written_out(callee) {
             self.write_out(callee, function, given)
                 .map_err(|fault| fault.within(function.name.as_deref()))?
@@ -110,6 +115,26 @@ impl<'m> Translator<'m> {
         }
         self.drop_temporaries(mark);
         Ok(())
+    }
+
+    /// A word of a function of nothing but its arguments, which is written out once for all that use it in this block.
+    fn word(
+        &mut self,
+        handle: Handle<Function>,
+        function: &'m Function,
+        given: Vec<Parts>,
+    ) -> Result<Parts, Fault> {
+        let (maker, of) = (Maker::Function(handle), given.concat());
+        if let Some(known) = self.recall(maker, &of) {
+            return Ok(vec![known]);
+        }
+        let parts = self
+            .write_out(handle, function, given)
+            .map_err(|fault| fault.within(function.name.as_deref()))?;
+        if let &[result] = parts.as_slice() {
+            self.remember(maker, of, result);
+        }
+        Ok(parts)
     }
 
     /// Writes a function out where it is called.
@@ -126,6 +151,7 @@ impl<'m> Translator<'m> {
         let gone = match body.returns {
             Returns::Leave(gone) => {
                 self.pending.push(Vec::new());
+                self.open_block();
                 Some(gone)
             }
             _ => None,
@@ -134,6 +160,7 @@ impl<'m> Translator<'m> {
         self.statements(&mut body, &function.body)?;
         self.trace_results(&mut body)?;
         if let Some(gone) = gone {
+            self.close_block();
             self.join_here();
             let next = self.here() + 1;
             self.emit(Inst::new(Op::Leave).to(gone).at(next));
@@ -214,6 +241,11 @@ impl<'m> Translator<'m> {
         }
         let result = function.result.as_ref().ok_or_else(unknown)?;
         let count = self.shapes.size(result.ty)?;
+        if count == 1
+            && let Some(results) = self.native(stand, &operands)?
+        {
+            return Ok(results);
+        }
         let all: Parts = given.iter().flatten().copied().collect();
         let results = (0..count)
             .map(|_| self.result_of(&all))

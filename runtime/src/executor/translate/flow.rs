@@ -28,6 +28,14 @@ impl<'m> Translator<'m> {
         }
     }
 
+    /// A block that only some lanes may go through.
+    fn block(&mut self, body: &mut Body<'m>, block: &'m Block) -> Result<(), Fault> {
+        self.open_block();
+        self.statements(body, block)?;
+        self.close_block();
+        Ok(())
+    }
+
     pub(super) fn statements(
         &mut self,
         body: &mut Body<'m>,
@@ -170,12 +178,12 @@ impl<'m> Translator<'m> {
         let others = self.frame.take()?;
         let inst = self.emit(Inst::new(Op::If).to(others).of(condition));
         self.pending.push(vec![inst]);
-        self.statements(body, accept)?;
+        self.block(body, accept)?;
         self.join_here();
         if !reject.is_empty() {
             let inst = self.emit(Inst::new(Op::Else).to(others));
             self.pending.push(vec![inst]);
-            self.statements(body, reject)?;
+            self.block(body, reject)?;
             self.join_here();
         }
         let end = self.emit(Inst::new(Op::EndIf).to(others));
@@ -200,11 +208,11 @@ impl<'m> Translator<'m> {
             continued: Some(continued),
         });
         self.pending.push(Vec::new());
-        self.statements(body, steps)?;
+        self.block(body, steps)?;
         self.join_here();
         let join = self.emit(Inst::new(Op::Join).to(continued));
         self.pending.push(Vec::new());
-        self.statements(body, continuing)?;
+        self.block(body, continuing)?;
         self.join_here();
         let ends = match break_if {
             Some(condition) => self.one(body, condition)?,
@@ -245,7 +253,7 @@ impl<'m> Translator<'m> {
             };
             let start = self.emit(Inst::new(Op::Case).to(rest).of(condition));
             self.pending.push(Vec::new());
-            self.statements(body, &case.body)?;
+            self.block(body, &case.body)?;
             self.join_here();
             let next = self.here() + 1;
             self.emit(Inst::new(Op::Leave).to(merged).at(next));

@@ -8,6 +8,8 @@ mod flow;
 mod frame;
 mod globals;
 mod math;
+mod memory;
+mod native;
 mod plan;
 mod pointer;
 
@@ -27,6 +29,7 @@ use body::Body;
 use call::Compiled;
 use frame::Frame;
 use globals::GlobalPlace;
+use memory::Memory;
 use plan::Plans;
 
 /// Words of a value, one for each component.
@@ -55,6 +58,7 @@ struct Translator<'m> {
     globals: HashMap<Handle<GlobalVariable>, GlobalPlace>,
     compiled: HashMap<Handle<Function>, Compiled>,
     frame: Frame,
+    memory: Memory,
     /// Slots that the expression at hand has made.
     temporaries: Vec<Slot>,
     /// For each block that is open, instructions that go on at its end.
@@ -91,6 +95,7 @@ pub(super) fn program(
         globals: HashMap::new(),
         compiled: HashMap::new(),
         frame: Frame::default(),
+        memory: Memory::default(),
         temporaries: Vec::new(),
         pending: Vec::new(),
     };

@@ -1,11 +1,11 @@
 //! Which functions are written out where they are called, and where the registers of the others begin.
 
-use naga::{Block, Function, Handle, Module, Statement};
+use naga::{Block, Expression, Function, Handle, Module, ScalarKind, Statement, TypeInner};
 
 use crate::executor::Arithmetic;
 use crate::executor::fault::Fault;
 use crate::executor::library::stand;
-use crate::executor::program::Options;
+use crate::executor::program::{Options, Watched};
 
 /// Functions of no more expressions than this, with all that is written out in them, are written out everywhere.
 const SMALL: usize = 48;
@@ -19,6 +19,8 @@ struct Plan {
     /// The table's definition stands in for it.
     stands_in: bool,
     written_out: bool,
+    /// It is written out, and gives a word of nothing but its arguments.
+    word: bool,
     weight: usize,
     depth: usize,
     /// The first register that is free of all that it calls; above its own once it is translated.
@@ -69,6 +71,9 @@ impl Plans {
             }
             let fits = plan.weight <= SMALL || sites[handle.index()] == 1;
             plan.written_out = fits && plan.depth <= MAX_DEPTH;
+            // what is shared is not seen again
+            let unseen = matches!(options.watched, Watched::Nothing);
+            plan.word = plan.written_out && unseen && gives_word(function, module);
             plans.0[handle.index()] = plan;
         }
         Ok(plans)
@@ -91,6 +96,12 @@ impl Plans {
         self.0[handle.index()].written_out
     }
 
+    /// Whether a function is written out, and its result depends on nothing but its arguments: a word, of which hashes are
+    /// made.
+    pub fn is_word(&self, handle: Handle<Function>) -> bool {
+        self.0[handle.index()].word
+    }
+
     /// Whether a function is translated by itself.
     pub fn stands_alone(&self, handle: Handle<Function>) -> bool {
         let plan = self.0[handle.index()];
@@ -108,6 +119,20 @@ impl Plans {
     pub fn set_floor(&mut self, handle: Handle<Function>, floor: u32) {
         self.0[handle.index()].floor = floor;
     }
+}
+
+/// Whether a function gives an unsigned integer that depends on nothing but its arguments.
+fn gives_word(function: &Function, module: &Module) -> bool {
+    let is_word = function.result.as_ref().is_some_and(|result| {
+        let inner = &module.types[result.ty].inner;
+        matches!(inner, TypeInner::Scalar(scalar) if scalar.kind == ScalarKind::Uint)
+    });
+    let mut statements = function.body.iter();
+    let mut expressions = function.expressions.iter();
+    is_word
+        && function.local_variables.is_empty()
+        && statements.all(|s| matches!(s, Statement::Emit(_) | Statement::Return { .. }))
+        && expressions.all(|(_, e)| !matches!(e, Expression::GlobalVariable(_)))
 }
 
 /// Every callee in a block.
