@@ -8,10 +8,10 @@ use super::legendre::nodes_for_exponential;
 use crate::ir::{Id, Prim};
 
 /// Where a quadratic is least in an interval: t, its value, and half its slope.
-struct Least {
-    place: Id,
-    value: Id,
-    slope: Id,
+pub(super) struct Least {
+    pub place: Id,
+    pub value: Id,
+    pub slope: Id,
 }
 
 impl Integrator<'_> {
@@ -23,6 +23,18 @@ impl Integrator<'_> {
     /// Kulla and Fajardo, "Importance sampling techniques for path tracing in participating media", 2012, for the map.
     pub(super) fn equiangular(&mut self, bowl: &Bowl, polynomials: &[Id], k: u32) -> Id {
         let (least, ends) = self.least(bowl);
+        self.over_the_angle(bowl, polynomials, k, &least, ends)
+    }
+
+    /// The same between two angles, counted from the place of the least q.
+    pub(super) fn over_the_angle(
+        &mut self,
+        bowl: &Bowl,
+        polynomials: &[Id],
+        k: u32,
+        least: &Least,
+        ends: [Id; 2],
+    ) -> Id {
         let (sum, difference) = (self.g.add(ends[0], ends[1]), self.g.sub(ends[1], ends[0]));
         let (middle, reach) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, difference));
         let root = call(self.g, Prim::Sqrt, bowl.q.discriminant);
