@@ -23,7 +23,26 @@ impl Integrator<'_> {
     /// Kulla and Fajardo, "Importance sampling techniques for path tracing in participating media", 2012, for the map.
     pub(super) fn equiangular(&mut self, bowl: &Bowl, polynomials: &[Id], k: u32) -> Id {
         let (least, ends) = self.least(bowl);
-        self.over_the_angle(bowl, polynomials, k, &least, ends)
+        let value = self.over_the_angle(bowl, polynomials, k, &least, ends);
+        if polynomials.is_empty() {
+            self.through_zero_of(bowl, value)
+        } else {
+            value
+        }
+    }
+
+    /// ∞ with the sign of the interval where it passes the double zero of q.
+    fn through_zero_of(&mut self, bowl: &Bowl, value: Id) -> Id {
+        let zero = self.g.real(0.0);
+        let product = self.g.mul(bowl.q.slopes[0], bowl.q.slopes[1]);
+        let inside = self.g.apply(Prim::LessEqual, &[product, zero]);
+        let curved = self.g.apply(Prim::Less, &[zero, bowl.q.a]);
+        let double = self.g.apply(Prim::Equal, &[bowl.q.discriminant, zero]);
+        let meets = self.g.apply(Prim::And, &[inside, double]);
+        let meets = self.g.apply(Prim::And, &[meets, curved]);
+        let infinity = self.g.real(f64::INFINITY);
+        let all = self.g.mul(infinity, self.path.half);
+        self.g.apply(Prim::Select, &[meets, all, value])
     }
 
     /// The same between two angles, counted from the place of the least q.

@@ -153,10 +153,7 @@ impl Integrator<'_> {
     fn theorem(&mut self, prim: Prim, args: &[Id]) -> Option<Reason> {
         let first = *args.first()?;
         let degree = self.degree(first);
-        let inner = match self.g.node(first).op {
-            Op::Apply(inner) => Some(inner),
-            _ => None,
-        };
+        let inner = self.inner_operation(first);
         let is_wave = |p: Option<Prim>| matches!(p, Some(Prim::Sin | Prim::Cos | Prim::Exp));
         Some(Reason::NotElementary(match prim {
             _ if is_rounding(prim) => return Some(Reason::Rounding),
@@ -181,6 +178,23 @@ impl Integrator<'_> {
             }
             _ => return None,
         }))
+    }
+
+    /// The operation of an expression, seen through signs and factors that do not change along the path.
+    fn inner_operation(&mut self, id: Id) -> Option<Prim> {
+        let mut id = id;
+        loop {
+            let node = self.g.node(id).clone();
+            let Op::Apply(prim) = node.op else {
+                return None;
+            };
+            id = match (prim, node.args.as_slice()) {
+                (Prim::Neg, &[a]) => a,
+                (Prim::Mul, &[a, b]) if !self.moves(a) => b,
+                (Prim::Mul | Prim::Div, &[a, b]) if !self.moves(b) => a,
+                _ => return Some(prim),
+            };
+        }
     }
 
     /// Why a product of known factors has no rule. Of exponentials or waves beside one other factor R: ∫ e^g R is

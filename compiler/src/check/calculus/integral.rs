@@ -5,7 +5,7 @@ use pullback_grammar::{Diagnostic, Span, print_expr};
 use smallvec::SmallVec;
 
 use crate::check::{Builder, Value, shortened};
-use crate::integrate::{Otherwise, Path, Problem, improper, integrate, quadrature};
+use crate::integrate::{MAX_PANELS, Otherwise, Path, Problem, improper, integrate, quadrature};
 use crate::ir::{Id, Prim, Ty};
 use crate::types::Type;
 
@@ -133,8 +133,11 @@ impl<'a> Builder<'a> {
                 Err(problem) => return self.no_closed_form(written, ends, &problem),
             }
         }
-        let cost = u64::from(STEPS) * 2;
-        if let Some(constants) = self.folding.fold(&mut self.graph, &results, cost) {
+        let steps = match written.method {
+            Method::Closed => STEPS * 2,
+            Method::Quadrature => MAX_PANELS,
+        };
+        if let Some(constants) = self.folding.fold(&mut self.graph, &results, steps.into()) {
             results = constants;
         }
         value.with_ids(&results)
