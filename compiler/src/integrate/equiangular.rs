@@ -40,6 +40,9 @@ impl Integrator<'_> {
         let double = self.g.apply(Prim::Equal, &[bowl.q.discriminant, zero]);
         let meets = self.g.apply(Prim::And, &[inside, double]);
         let meets = self.g.apply(Prim::And, &[meets, curved]);
+        // not where the discriminant is too small for the format
+        let is_none = self.g.apply(Prim::NotEqual, &[value, value]);
+        let meets = self.g.apply(Prim::And, &[meets, is_none]);
         let infinity = self.g.real(f64::INFINITY);
         let all = self.g.mul(infinity, self.path.half);
         self.g.apply(Prim::Select, &[meets, all, value])

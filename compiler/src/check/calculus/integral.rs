@@ -174,6 +174,8 @@ impl<'a> Builder<'a> {
         if written.method == Method::Closed && is_finite {
             let call = format!("quadrature({body}, {}, {a}, {b})", shortened(&name.text));
             diagnostic = diagnostic.with_hint(format!("`{call}` computes it numerically"));
+        } else if !is_finite {
+            diagnostic = diagnostic.with_hint("take finite ends");
         }
         self.report(diagnostic)
     }
