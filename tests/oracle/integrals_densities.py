@@ -216,6 +216,50 @@ def random_densities():
     return out
 
 
+def products():
+    """Gaussians by waves, products of reciprocals, sums with conditions of their own, cuts at parameters, erfc."""
+    ball, other = "x^2+y^2+z^2", "(x-1)^2+y^2+z^2"
+    waves = [
+        ("exp(-(x^2+y^2+z^2))*cos(3*x+1)", 4), ("exp(-r*((x-0.25)^2+y^2))*sin(8*z)", 9),
+        ("exp(-x^2)*sin(2*x)*cos(3*y)", 5), ("exp(-p*x^2-y)*cos(r*x)", 4), ("exp(-4*x^2)*cos(20*x)", 20),
+        ("exp(-(x^2+y^2))*sin(4*x)^2", 8), ("exp(-0.01*x^2)*sin(x+y)", 2), ("exp(-9*(x^2+y^2+z^2))*sin(x)", 6),
+        ("exp(-x*x-2*x*y-y*y)*cos(r*z+x)", 4),
+    ]
+    rational = [
+        ("1/((x^2+y^2+z^2+0.1)*((x-1)^2+y^2+z^2+0.2))", [ball, other]),
+        ("1/((x^2+y^2+z^2+0.1)*(x^2+y^2+z^2+0.11))", [ball]), ("1/((x^2+1)*(y^2+1))", ["x^2", "y^2"]),
+        ("1/((x^2+y^2+0.5)*(z^2+2))", ["x^2+y^2", "z^2"]), ("1/((y+12)*(x+11))", []), ("1/((y+12)*(y+12.001))", []),
+        ("p/((x-0.25)^2+y^2+z^2+0.01)/((x-0.2501)^2+y^2+z^2+0.01)", ["(x-0.25)^2+y^2+z^2"]),
+        ("1/((x^2+y^2+z^2+0.01)*((x-0.125)^2+y^2+z^2+0.01))", [ball, "(x-0.125)^2+y^2+z^2"]),
+        ("r/((x^2+y^2+z^2+4)*(x^2+4*y^2+p))", [ball, "x^2+4*y^2"]),
+    ]
+    pieces = [
+        ("clamp(x,0,1)+clamp(y,0,1)", ["x", "x-1", "y", "y-1"]), ("abs(x)+abs(y)-abs(z)", ["x", "y", "z"]),
+        ("max(0,1-abs(x))+smoothstep(-1,1,z)*2", ["x", "x-1", "x+1", "z-1", "z+1"]), ("clamp(y,0,p)", ["y", "y-p"]),
+        ("clamp(x,q,p)^2", ["x-q", "x-p"]), ("smoothstep(q,p,z)", ["z-q", "z-p"]),
+        ("step(p,y)+step(q,x)*y", ["y-p", "x-q"]), ("max(y-p,0)*min(y,r)", ["y-p", "y-r"]),
+        ("abs(x-p)*abs(x-q)*abs(x-r)", ["x-p", "x-q", "x-r"]),
+    ]
+    tails = [("erfc(2*x)", 3), ("erfc(x-y+1)", 2), ("erfc(6+x)", 12), ("p*erfc(y-4)+x", 2)]
+    return [D(t, ["x", "x^2+y^2"], speed=s) for t, s in waves] + [D(t, m, speed=3) for t, m in rational] + [
+        D(t, m, speed=1) for t, m in pieces] + [D(t, ["x", "y"], speed=s) for t, s in tails]
+
+
+def rest():
+    """Without closed form: for the nodes."""
+    ball = ["x^2+y^2+z^2"]
+    texts = [
+        ("exp(-x^2*y^2)", 6, []), ("sin(3*x*y)", 12, []), ("exp(sin(4*x)+cos(3*y))", 12, []),
+        ("exp(-r*len(x,y,z))", 4, ball), ("sqrt(1+x^4+y^2)", 4, []), ("exp(-x^4)", 8, []), ("tanh(x*y)", 4, []),
+        ("sin(x)/(2+cos(3*y))", 6, []), ("cos(1/(0.2+x^2))", 30, ["x"]), ("exp(-20*(sin(x)-0.3)^2)", 12, []),
+        ("log(2+sin(5*x)*cos(y))", 12, []), ("(1+x^2+y^2)^0.3", 4, []), ("1/(1+exp(4*sin(3*x)))", 30, []),
+        ("atan(x*y+z)", 4, []), ("exp(x)/(y+6)", 4, []), ("sinh(x*y)/cosh(x*y+1)", 6, []),
+        ("1/(0.0001+x^2)^0.3", 4, ["x^2+0.0001"]), ("1/(0.01+x^2+y^4)", 8, ["x^2"]), ("tanh(40*x*y)", 40, ["x*y"]),
+        ("exp(p*x)*asinh(q*y+z)", 4, []), ("erf(x*y)*x", 4, []), ("x^2*sech(x^2+y)", 8, []),
+    ]
+    return [D(t, marks, speed=s) for t, s, marks in texts]
+
+
 def classes():
     return {
         "polynomials": polynomials(),
@@ -228,4 +272,6 @@ def classes():
         "bells": bells(),
         "scenes": scenes(),
         "random": random_densities(),
+        "products": products(),
+        "rest": rest(),
     }

@@ -39,7 +39,7 @@ def condition(c, a, b):
 def namespace():
     names = {
         name: getattr(mp, name)
-        for name in "sin cos exp sqrt sinh cosh tanh atan asinh erf pi".split()
+        for name in "sin cos exp sqrt sinh cosh tanh atan asinh erf erfc pi".split()
     }
     clamp = lambda x, lo, hi: min(max(x, lo), hi)
 
@@ -71,7 +71,7 @@ NAMES = namespace()
 
 def in_floats():
     names = dict(NAMES)
-    for name in "sin cos exp sqrt sinh cosh tanh atan asinh erf pi".split():
+    for name in "sin cos exp sqrt sinh cosh tanh atan asinh erf erfc pi".split():
         names[name] = getattr(math, name)
     names.update(
         log=lambda x: math.log(x) if x > 0 else math.nan,

@@ -120,7 +120,7 @@ impl Integrator<'_> {
     }
 
     /// The sign of x^p for x < 0: that of a whole p, NaN of another.
-    fn with_sign(&mut self, mid: Id, exponent: Id, value: Id) -> Id {
+    pub(super) fn with_sign(&mut self, mid: Id, exponent: Id, value: Id) -> Id {
         let zero = self.g.real(0.0);
         match self.g.as_real(exponent) {
             Some(p) if p.fract() == 0.0 && p.rem_euclid(2.0) == 0.0 => value,
@@ -205,6 +205,7 @@ impl Integrator<'_> {
                 Factor::Function(Prim::Sech, x),
                 Factor::Function(Prim::Sech, y),
             ] if x == y => Some((self.square_of_secant(x), Rule::Bell)),
+            [Factor::Function(Prim::Erfc, x)] => Some((self.complementary(x), Rule::Sigmoidal)),
             [Factor::Function(prim, x)] => Some((self.sigmoidal(prim, x), Rule::Sigmoidal)),
             [Factor::Logistic(x)] => Some((self.logistic(x), Rule::Logistic)),
             _ => None,

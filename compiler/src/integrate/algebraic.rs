@@ -23,11 +23,11 @@ const TINY: f64 = 1e-37;
 pub(super) struct Bowl {
     pub q: Quadratic,
     /// a h²
-    reach: Id,
+    pub reach: Id,
     /// Length of the interval with its sign.
     length: Id,
     /// Values at both ends; what is below 0 by a rounding is 0.
-    ends: [Id; 2],
+    pub ends: [Id; 2],
 }
 
 impl Integrator<'_> {
@@ -118,7 +118,7 @@ impl Integrator<'_> {
             .fold(value, |product, &p| mul(self.g, product, p))
     }
 
-    fn bowl(&mut self, base: Id) -> Bowl {
+    pub(super) fn bowl(&mut self, base: Id) -> Bowl {
         let q = self.quadratic(base);
         let half = self.path.half;
         let square_half = square(self.g, half);
@@ -300,11 +300,15 @@ impl Integrator<'_> {
             Moments::Power(n) => self.power_moments(bowl, offsets, n, degree),
             Moments::Log => self.log_moments(bowl, offsets, degree),
         };
-        let parts: Vec<Id> = coefficients
+        let mut parts: Vec<Id> = coefficients
             .iter()
             .zip(&moments)
             .map(|(&c, &m)| mul(self.g, c, m))
             .collect();
+        // through the zero of q the first moment may be infinite, and what is 0 there does not count
+        let zero = self.g.real(0.0);
+        let is_none = self.g.apply(Prim::Equal, &[coefficients[0], zero]);
+        parts[0] = self.g.apply(Prim::Select, &[is_none, zero, parts[0]]);
         total(self.g, parts)
     }
 
@@ -353,7 +357,13 @@ impl Integrator<'_> {
                 let mut sum = self.g.div(ends, bowl.q.a);
                 if k > 1 {
                     let last = out[out.len() - 2];
-                    let rest = mul(self.g, depth, last);
+                    let mut rest = mul(self.g, depth, last);
+                    if k == 2 && n < 0 {
+                        // D times what may be infinite for D = 0 tends to 0
+                        let zero = self.g.real(0.0);
+                        let is_flat = self.g.apply(Prim::Equal, &[depth, zero]);
+                        rest = self.g.apply(Prim::Select, &[is_flat, zero, rest]);
+                    }
                     let rest = scale(self.g, f64::from(k - 1), rest);
                     sum = self.g.sub(sum, rest);
                 }

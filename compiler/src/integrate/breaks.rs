@@ -62,7 +62,7 @@ impl<'g> Integrator<'g> {
 
     /// What changes its form where a difference of two expressions (or one expression) is 0, in order. Polynomials
     /// have none, whatever they are written with.
-    fn conditions(&mut self, root: Id) -> Vec<(Id, Id, Option<Id>)> {
+    pub(super) fn conditions(&mut self, root: Id) -> Vec<(Id, Id, Option<Id>)> {
         let mut seen = rustc_hash::FxHashSet::default();
         let mut stack = vec![root];
         let mut out = Vec::new();
@@ -245,11 +245,12 @@ impl<'g> Integrator<'g> {
         let total = if let &[cut] = cuts {
             let place = self.next_cut(start, &[cut], reach);
             let left = self.piece(root, start, place, on_piece)?;
-            let known = (self.parts.len(), self.numerical.len());
+            let known = (self.parts.len(), self.numerical.len(), self.rest.len());
             self.path.clone_from(&whole);
             let right = self.piece(root, place, reach, on_piece)?;
             self.parts.truncate(known.0);
             self.numerical.truncate(known.1);
+            self.rest.truncate(known.2);
             self.g.add(left, right)
         } else {
             self.walk(root, cuts, (start, reach), on_piece)?
@@ -343,6 +344,11 @@ impl<'g> Integrator<'g> {
 
     /// A condition or a sign in the middle of the path.
     fn decide(&mut self, id: Id) -> Id {
+        if self.beyond
+            && let Some(decided) = self.at_infinity(id)
+        {
+            return decided;
+        }
         let decided = self.at_middle(id);
         self.written.insert(decided, id);
         decided

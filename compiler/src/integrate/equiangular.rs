@@ -8,10 +8,10 @@ use super::legendre::nodes_for_exponential;
 use crate::ir::{Id, Prim};
 
 /// Where a quadratic is least in an interval: t, its value, and half its slope.
-struct Least {
-    place: Id,
-    value: Id,
-    slope: Id,
+pub(super) struct Least {
+    pub place: Id,
+    pub value: Id,
+    pub slope: Id,
 }
 
 impl Integrator<'_> {
@@ -23,6 +23,40 @@ impl Integrator<'_> {
     /// Kulla and Fajardo, "Importance sampling techniques for path tracing in participating media", 2012, for the map.
     pub(super) fn equiangular(&mut self, bowl: &Bowl, polynomials: &[Id], k: u32) -> Id {
         let (least, ends) = self.least(bowl);
+        let value = self.over_the_angle(bowl, polynomials, k, &least, ends);
+        if polynomials.is_empty() {
+            self.through_zero_of(bowl, value)
+        } else {
+            value
+        }
+    }
+
+    /// ∞ with the sign of the interval where it passes the double zero of q.
+    fn through_zero_of(&mut self, bowl: &Bowl, value: Id) -> Id {
+        let zero = self.g.real(0.0);
+        let product = self.g.mul(bowl.q.slopes[0], bowl.q.slopes[1]);
+        let inside = self.g.apply(Prim::LessEqual, &[product, zero]);
+        let curved = self.g.apply(Prim::Less, &[zero, bowl.q.a]);
+        let double = self.g.apply(Prim::Equal, &[bowl.q.discriminant, zero]);
+        let meets = self.g.apply(Prim::And, &[inside, double]);
+        let meets = self.g.apply(Prim::And, &[meets, curved]);
+        // not where the discriminant is too small for the format
+        let is_none = self.g.apply(Prim::NotEqual, &[value, value]);
+        let meets = self.g.apply(Prim::And, &[meets, is_none]);
+        let infinity = self.g.real(f64::INFINITY);
+        let all = self.g.mul(infinity, self.path.half);
+        self.g.apply(Prim::Select, &[meets, all, value])
+    }
+
+    /// The same between two angles, counted from the place of the least q.
+    pub(super) fn over_the_angle(
+        &mut self,
+        bowl: &Bowl,
+        polynomials: &[Id],
+        k: u32,
+        least: &Least,
+        ends: [Id; 2],
+    ) -> Id {
         let (sum, difference) = (self.g.add(ends[0], ends[1]), self.g.sub(ends[1], ends[0]));
         let (middle, reach) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, difference));
         let root = call(self.g, Prim::Sqrt, bowl.q.discriminant);

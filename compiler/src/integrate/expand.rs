@@ -89,7 +89,14 @@ impl Integrator<'_> {
             }
             Prim::Mul => self.product(&of(0), &of(1), id),
             Prim::Div => match self.inverse(&of(1)) {
-                Some(inverse) => self.product(&of(0), &[inverse], id),
+                Some(inverse) => {
+                    let numerator = of(0);
+                    let mut terms = self.product(&numerator, &[inverse], id)?;
+                    if let [term] = terms.as_mut_slice() {
+                        term.source = id;
+                    }
+                    Ok(terms)
+                }
                 None => self.quotient_without_rule(id, &of(0), &of(1)),
             },
             Prim::PowInt(n) => self.power(id, &of(0), n),
@@ -229,11 +236,6 @@ impl Integrator<'_> {
 
     fn inverse(&mut self, terms: &[Term]) -> Option<Term> {
         let [term] = terms else { return None };
-        for &factor in &term.factors {
-            if let Factor::Polynomial(p) = factor {
-                self.degree(p);
-            }
-        }
         self.extend_classes();
         let classes = &self.classes;
         term.inverse(self.g, |id| classes.known_degree(id))
@@ -299,7 +301,7 @@ impl Integrator<'_> {
             Prim::Sin | Prim::Cos | Prim::Sinh | Prim::Cosh if self.degree(first) == Some(1) => {
                 (Factor::Wave(prim, first), 1.0)
             }
-            Prim::Tanh | Prim::Sech | Prim::Atan | Prim::Asinh | Prim::Erf
+            Prim::Tanh | Prim::Sech | Prim::Atan | Prim::Asinh | Prim::Erf | Prim::Erfc
                 if self.degree(first) == Some(1) =>
             {
                 (Factor::Function(prim, first), 1.0)

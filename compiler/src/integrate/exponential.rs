@@ -285,7 +285,7 @@ impl Integrator<'_> {
     }
 
     /// The antiderivative of a polynomial, given by its derivatives at an end, times one wave.
-    fn end(&mut self, of: &Wave, side: f64, values: &[Id]) -> Id {
+    pub(super) fn end(&mut self, of: &Wave, side: f64, values: &[Id]) -> Id {
         let at_end = |_: &mut Self, a: Affine| a.ends[usize::from(side > 0.0)];
         let exponent = of.exponent.map(|e| (at_end(self, e), e.slope));
         let wave = of

@@ -31,7 +31,7 @@ impl Integrator<'_> {
             return Err(self.problem(term.source, Reason::NotFound));
         };
         if !parts.waves.is_empty() {
-            return Err(self.problem(term.source, Reason::NotFound));
+            return self.gaussian_by_waves(term, &parts, exponent);
         }
         let degree = self.polynomial_degree(&parts.polynomials);
         if degree > MAX_DEGREE_BESIDE_GAUSSIAN {
@@ -80,7 +80,7 @@ impl Integrator<'_> {
 
     /// |h| e^(-min q) mass(c, w)/w: mass is ∫ e^(-u²) from c - w to c + w over its greatest value. Of a long interval the
     /// part that is within 7 widths of its greatest value is enough.
-    fn mass(&mut self, q: &Quadratic) -> Id {
+    pub(super) fn mass(&mut self, q: &Quadratic) -> Id {
         let (narrow, rate, places) = self.in_widths(q, LEAST_WIDTH);
         let [low, high] = [Prim::Min, Prim::Max].map(|p| self.g.apply(p, &places));
         let zero = self.g.real(0.0);
@@ -123,7 +123,7 @@ impl Integrator<'_> {
     }
 
     /// 2 |b h| + a h², which the exponent changes by at most.
-    fn change_of_exponent(&mut self, q: &Quadratic, half: Id) -> Id {
+    pub(super) fn change_of_exponent(&mut self, q: &Quadratic, half: Id) -> Id {
         let slope = mul(self.g, q.b, half);
         let slope = call(self.g, Prim::Abs, slope);
         let slope = scale(self.g, 2.0, slope);
@@ -167,7 +167,7 @@ impl Integrator<'_> {
                     .g
                     .apply(Prim::Select, &[is_beyond, q.ends[which], depth]);
                 let values = self.at(&derivatives, s);
-                let tail = self.tail(&values, x, rate, side);
+                let tail = self.tail_of(&values, x, rate, side);
                 let fall = self.g.neg(exponent);
                 let size = call(self.g, Prim::Exp, fall);
                 let part = mul(self.g, size, tail);
@@ -188,7 +188,7 @@ impl Integrator<'_> {
     }
 
     /// (√π/2) Σ (±1)ⁿ p⁽ⁿ⁾/rateⁿ e^(x²) iⁿerfc x
-    fn tail(&mut self, values: &[Id], x: Id, rate: Id, side: f64) -> Id {
+    pub(super) fn tail_of(&mut self, values: &[Id], x: Id, rate: Id, side: f64) -> Id {
         let mut sum = self.g.real(0.0);
         for (n, &value) in (0_u8..).zip(values) {
             let integral = self.g.apply(Prim::Erfcx(n), &[x]);

@@ -84,6 +84,8 @@ impl Integrator<'_> {
                 match *factor {
                     Factor::Polynomial(p) => polynomial += self.degree(p)?,
                     Factor::Wave(_, phase) => *own.entry((false, phase)).or_default() += 1,
+                    // it changes faster the farther it falls
+                    Factor::Function(Prim::Erfc, _) => return None,
                     Factor::Function(_, x) | Factor::Logistic(x) => {
                         *own.entry((true, x)).or_default() += 1
                     }

@@ -5,27 +5,35 @@
 //! integrand becomes a sum of products; each product is integrated by the rule of its class ([`Rule`]). What is
 //! piecewise is cut where its conditions change. Nothing divides by a component of the direction.
 
+mod addends;
 mod affine;
 mod algebraic;
 mod arithmetic;
 mod bessel;
 mod breaks;
 mod class;
+mod complementary;
+mod disc;
 mod equiangular;
 mod expand;
 mod explain;
 mod exponential;
 mod field;
 mod gaussian;
+mod gaussian_waves;
 mod group;
+mod infinite;
 mod legendre;
 mod path;
 mod problem;
+mod products;
+mod prove;
 mod quadratic;
 mod quadrature;
 mod ridge;
 mod rule;
 mod series;
+mod tails;
 mod term;
 mod waves;
 
@@ -33,13 +41,16 @@ pub use algebraic::MAX_DEGREE_BESIDE_POWER;
 pub use breaks::MAX_BREAKS;
 pub use class::MAX_DEGREE;
 pub use expand::{MAX_FACTORS, MAX_TERMS};
-pub use explain::{Explanation, Told, explain};
+pub use explain::{Explanation, Rest, SAMPLE, Told, explain};
 pub use exponential::MAX_DEGREE_BESIDE;
 pub use field::{FieldIntegral, INPUTS, field_integral};
 pub use gaussian::MAX_DEGREE_BESIDE_GAUSSIAN;
+pub use infinite::improper;
 pub use legendre::{Node as QuadratureNode, gauss_legendre};
 pub use path::{Coordinate, Path};
 pub use problem::{Problem, Reason};
+pub use prove::{PROOF_TOLERANCE, Proof, prove};
+pub use quadrature::{BOUNDED_NODES, MAX_PANELS, NODES, Numerical, PANELS, TOLERANCE};
 pub use rule::{RULES, Record, Rule};
 pub use waves::MAX_WAVES;
 
@@ -90,6 +101,8 @@ pub struct Integral {
     pub pieces: bool,
     /// The parts that were integrated numerically, and why.
     pub numerical: Vec<Problem>,
+    /// How they were.
+    pub rest: Vec<Numerical>,
 }
 
 /// ∫ of a real expression along a path.
@@ -109,6 +122,7 @@ pub fn integrate(
         parts: integrator.parts,
         pieces: integrator.pieces,
         numerical: integrator.numerical,
+        rest: integrator.rest,
     })
 }
 
@@ -128,7 +142,10 @@ struct Integrator<'g> {
     otherwise: Otherwise,
     parts: Vec<Part>,
     numerical: Vec<Problem>,
+    rest: Vec<Numerical>,
     pieces: bool,
+    /// Whether conditions are decided at infinity.
+    beyond: bool,
     /// The conditions as they were written, of those that were decided.
     written: FxHashMap<Id, Id>,
     /// Number of nodes of the graph beyond which the integral is refused.
@@ -146,14 +163,26 @@ impl<'g> Integrator<'g> {
             otherwise,
             parts: Vec::new(),
             numerical: Vec::new(),
+            rest: Vec::new(),
             pieces: false,
+            beyond: false,
             written: FxHashMap::default(),
             limit,
         }
     }
 
-    /// The integral of the whole integrand, in pieces where it has conditions.
+    /// The integral of the whole integrand; addends with conditions of their own each for itself.
     fn whole(&mut self, root: Id) -> Result<Id, Problem> {
+        let mut sum = self.g.real(0.0);
+        for group in self.addends(root) {
+            let value = self.in_pieces(group)?;
+            sum = add(self.g, sum, value);
+        }
+        Ok(sum)
+    }
+
+    /// The integral of an integrand, in pieces where it has conditions.
+    fn in_pieces(&mut self, root: Id) -> Result<Id, Problem> {
         match self.cuts(root) {
             Ok(cuts) if cuts.is_empty() => self.smooth(root),
             Ok(cuts) => {
@@ -164,7 +193,7 @@ impl<'g> Integrator<'g> {
                 }
             }
             Err(problem) if self.otherwise == Otherwise::Quadrature => {
-                let value = self.composite(root);
+                let value = self.numerically(root);
                 self.numerical.push(problem);
                 Ok(value)
             }
@@ -208,7 +237,7 @@ impl<'g> Integrator<'g> {
         let grouped = self.sum_of_groups(groups, all_closed);
         sum = add(self.g, sum, grouped);
         if self.moves(rest) {
-            let value = self.composite(rest);
+            let value = self.numerically(rest);
             sum = add(self.g, sum, value);
         }
         Ok(sum)
@@ -320,6 +349,11 @@ impl<'g> Integrator<'g> {
                     return rule(self, term.source, &parts.polynomials, base);
                 }
                 _ => {}
+            }
+            if parts.polynomials.is_empty()
+                && let Some(pair) = products::pair_of_powers(&parts.rest)
+            {
+                return self.product_of_powers(term, pair);
             }
             if parts.polynomials.is_empty()
                 && let Some(found) = self.function(&parts.rest)

@@ -58,7 +58,7 @@ impl Path {
     }
 
     /// Each a leaf, its value at t = 0, and its slope.
-    fn of_lines(g: &mut Graph, lines: &[(Id, Id, Id)], ends: [Id; 2]) -> Self {
+    pub(super) fn of_lines(g: &mut Graph, lines: &[(Id, Id, Id)], ends: [Id; 2]) -> Self {
         // from half ends, so that neither overflows
         let halves = ends.map(|end| scale(g, 0.5, end));
         let (middle, half) = (add(g, halves[0], halves[1]), sub(g, halves[1], halves[0]));

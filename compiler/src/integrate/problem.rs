@@ -34,6 +34,10 @@ pub enum Reason {
     Loop,
     /// The value jumps at every whole number of something that grows along the line.
     Rounding,
+    /// The integral to infinity has no limit, and why.
+    Diverges(&'static str),
+    /// Several parts of a sum have no integral to infinity, each for itself.
+    Together,
     /// A complex number on the way.
     Complex,
     /// The function is not one of up to three reals with a real value.
@@ -57,6 +61,10 @@ impl Reason {
             Self::Loop => "of the loops, sums of terms with a constant number of terms are integrated".to_owned(),
             Self::Rounding => "it jumps as often as the line is long".to_owned(),
             Self::NoField => "the integral along a ray is of a real function of x, y and z".to_owned(),
+            Self::Diverges(why) => why.to_owned(),
+            Self::Together => {
+                "several of its terms have no integral to infinity; whether they cancel is not known".to_owned()
+            }
             Self::Complex => "complex numbers on the way are not integrated".to_owned(),
         }
     }
@@ -65,6 +73,12 @@ impl Reason {
     #[must_use]
     pub fn is_proven(self) -> bool {
         matches!(self, Self::NotElementary(_))
+    }
+
+    /// Whether an integral to infinity has no limit.
+    #[must_use]
+    pub fn diverges(self) -> bool {
+        matches!(self, Self::Diverges(_))
     }
 }
 
@@ -77,6 +91,7 @@ impl Problem {
         let (code, message) = match self.reason {
             Reason::NoField => ("wrong-demand", "this has no integral along a ray"),
             Reason::Bound(..) => ("too-large", "this integral is too large to be written out"),
+            Reason::Diverges(_) => ("divergent-integral", "this integral has no limit"),
             reason if reason.is_proven() => (
                 "no-closed-form",
                 "this integral has no elementary closed form",
@@ -138,10 +153,7 @@ impl Integrator<'_> {
     fn theorem(&mut self, prim: Prim, args: &[Id]) -> Option<Reason> {
         let first = *args.first()?;
         let degree = self.degree(first);
-        let inner = match self.g.node(first).op {
-            Op::Apply(inner) => Some(inner),
-            _ => None,
-        };
+        let inner = self.inner_operation(first);
         let is_wave = |p: Option<Prim>| matches!(p, Some(Prim::Sin | Prim::Cos | Prim::Exp));
         Some(Reason::NotElementary(match prim {
             _ if is_rounding(prim) => return Some(Reason::Rounding),
@@ -168,34 +180,54 @@ impl Integrator<'_> {
         }))
     }
 
-    /// Why a product of known factors has no rule.
+    /// The operation of an expression, seen through signs and factors that do not change along the path.
+    fn inner_operation(&mut self, id: Id) -> Option<Prim> {
+        let mut id = id;
+        loop {
+            let node = self.g.node(id).clone();
+            let Op::Apply(prim) = node.op else {
+                return None;
+            };
+            id = match (prim, node.args.as_slice()) {
+                (Prim::Neg, &[a]) => a,
+                (Prim::Mul, &[a, b]) if !self.moves(a) => b,
+                (Prim::Mul | Prim::Div, &[a, b]) if !self.moves(b) => a,
+                _ => return Some(prim),
+            };
+        }
+    }
+
+    /// Why a product of known factors has no rule. Of exponentials or waves beside one other factor R: ∫ e^g R is
+    /// elementary exactly if R = w' + w g' for a rational w (Liouville), and so not where R has a simple pole, or is
+    /// a power with one zero; beside a logarithm ∫ e^g log q leaves ∫ e^g q'/q.
     pub(super) fn why_product(&mut self, term: &Term) -> Problem {
-        let is_exponential = |f: &Factor| matches!(f, Factor::Exponential(_) | Factor::Wave(..));
-        let exponentials = term.factors.iter().filter(|f| is_exponential(f)).count();
-        let reason = match term.factors.as_slice() {
-            [a, b] if exponentials == 1 => {
-                let other = if is_exponential(a) { *b } else { *a };
-                let (Factor::Power(base, _) | Factor::Log(base)) = other else {
-                    return self.problem(term.source, Reason::NotFound);
-                };
-                let degree = self.degree(base);
-                let n = match other {
-                    Factor::Power(_, n) => self.g.as_real(n),
-                    _ => None,
-                };
-                match (degree, n, other) {
-                    (Some(1), Some(n), _) if n < 0.0 && n.fract() == 0.0 => {
-                        Reason::NotElementary("Liouville: the exponential, sine or cosine integral")
-                    }
-                    (Some(1), _, Factor::Log(_)) => {
-                        Reason::NotElementary("Liouville: the exponential, sine or cosine integral")
-                    }
-                    _ => Reason::NotFound,
-                }
-            }
+        let is_exponential = |f: &&Factor| matches!(f, Factor::Exponential(_) | Factor::Wave(..));
+        let exponentials = term.factors.iter().filter(is_exponential).count();
+        let others = term.factors.iter().filter(|f| !is_exponential(f));
+        let reason = match *others.collect::<Vec<_>>().as_slice() {
+            [&other] if exponentials > 0 => self.beside_exponentials(other),
             _ => Reason::NotFound,
         };
         self.problem(term.source, reason)
+    }
+
+    fn beside_exponentials(&mut self, other: Factor) -> Reason {
+        const INTEGRAL: &str = "Liouville: the exponential, sine or cosine integral";
+        const GAMMA: &str = "Liouville: the incomplete gamma function";
+        let (base, power) = match other {
+            Factor::Power(base, n) => (base, self.g.as_real(n)),
+            Factor::Log(base) => (base, None),
+            _ => return Reason::NotFound,
+        };
+        match (self.degree(base), power, other) {
+            (_, _, Factor::Log(_)) => Reason::NotElementary(INTEGRAL),
+            (Some(1), Some(n), _) if n.fract() != 0.0 => Reason::NotElementary(GAMMA),
+            (Some(1), Some(n), _) if n < 0.0 => Reason::NotElementary(INTEGRAL),
+            (Some(2), Some(n), _) if n.fract() == 0.0 && (-2.0..=-1.0).contains(&n) => {
+                Reason::NotElementary(INTEGRAL)
+            }
+            _ => Reason::NotFound,
+        }
     }
 }
 

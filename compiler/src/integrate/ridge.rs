@@ -3,17 +3,20 @@
 //! Along the line such a form u goes evenly from one end value to the other, so that the mean of F(u) over the interval
 //! is the mean over the range of u. Where F changes at constants, these are in order whatever the line is: each is
 //! clipped to the range, nothing is sorted, and which piece has which branch is known when the integral is written.
+//! Where F changes at parameters, up to three of them are sorted by a network, and each piece is decided in its middle.
 //! (A function of an affine form is a ridge function: Pinkus, Ridge Functions, 2015.)
 
 use super::arithmetic::{add, div, mul, scale, sub};
 use super::path::{Body, cone};
 use super::{Integrator, Otherwise, Part, Path, Rule};
-use crate::ir::{Id, Prim, Ty};
+use crate::ir::{Id, Op, Prim, Ty};
 
 /// How many expressions are tried as the affine form.
 const MAX_FORMS_TRIED: usize = 32;
+/// Greatest number of cuts that are sorted where parameters place them.
+const MAX_SORTED: usize = 3;
 
-/// An integrand as a function of one affine form, whose conditions change at constants.
+/// An integrand as a function of one affine form, whose conditions change at places that do not depend on the line.
 struct Ridge {
     /// The form.
     form: Id,
@@ -22,7 +25,7 @@ struct Ridge {
     /// The integrand, by that leaf.
     function: Id,
     /// Where it may change, in order.
-    cuts: Vec<f64>,
+    cuts: Vec<Id>,
     /// What it is below, between and above the cuts, each with its degree.
     pieces: Vec<(Id, u32)>,
 }
@@ -39,7 +42,7 @@ impl<'g> Integrator<'g> {
         let range = sub(self.g, high, low);
         let mut bounds = vec![low];
         for &cut in &ridge.cuts {
-            let cut = self.g.real(0.5 * cut);
+            let cut = scale(self.g, 0.5, cut);
             let above = self.g.apply(Prim::Max, &[cut, low]);
             bounds.push(self.g.apply(Prim::Min, &[above, high]));
         }
@@ -94,10 +97,10 @@ impl<'g> Integrator<'g> {
         let (low, high) = (self.g.real(-1.0), self.g.real(1.0));
         let path = Path::of_variable(self.g, leaf, low, high);
         let mut inner = Integrator::new(&mut *self.g, path, Otherwise::Refuse);
-        let cuts = inner.constant_cuts(function)?;
+        let (cuts, places) = inner.ordered_cuts(function)?;
         let mut pieces = Vec::with_capacity(cuts.len() + 1);
-        for place in between(&cuts) {
-            inner.path.coordinates[0].mid = inner.g.real(place);
+        for place in places {
+            inner.path.coordinates[0].mid = place;
             let piece = inner.decided(function);
             let degree = inner.degree(piece)?;
             pieces.push((piece, degree));
@@ -111,10 +114,71 @@ impl<'g> Integrator<'g> {
         })
     }
 
-    /// The places where conditions change, in order, if all of them are known numbers.
-    fn constant_cuts(&mut self, function: Id) -> Option<Vec<f64>> {
+    /// The places where conditions change, in order, and a place below, between and above them.
+    fn ordered_cuts(&mut self, function: Id) -> Option<(Vec<Id>, Vec<Id>)> {
         let cuts = self.cuts(function).ok()?;
-        let cuts: Option<Vec<f64>> = cuts.into_iter().map(|cut| self.g.as_real(cut)).collect();
+        match self.constant_cuts(&cuts) {
+            Some(cuts) => {
+                let places = between(&cuts);
+                let real = |this: &mut Self, all: Vec<f64>| {
+                    all.into_iter().map(|v| this.g.real(v)).collect::<Vec<Id>>()
+                };
+                Some((real(self, cuts), real(self, places)))
+            }
+            None => self.sorted_cuts(cuts),
+        }
+    }
+
+    /// A few cuts that depend on parameters, by a sorting network. Only those that are numbers whatever the parameters
+    /// are: zeros of what grows at a constant rate.
+    fn sorted_cuts(&mut self, mut cuts: Vec<Id>) -> Option<(Vec<Id>, Vec<Id>)> {
+        let is_safe = |this: &Self, cut: Id| {
+            cone(this.g, &[cut]).iter().all(|&id| {
+                let node = this.g.node(id);
+                match node.op {
+                    Op::Apply(Prim::Div) => {
+                        let bottom = this.g.as_real(node.args[1]);
+                        bottom.is_some_and(|b| b != 0.0 && b.is_finite())
+                    }
+                    Op::Apply(prim) => {
+                        matches!(prim, Prim::Neg | Prim::Add | Prim::Sub | Prim::Mul)
+                    }
+                    Op::Const(bits) => f64::from_bits(bits).is_finite(),
+                    Op::Param(_) | Op::Time | Op::Pixel => true,
+                    _ => false,
+                }
+            })
+        };
+        if cuts.len() > MAX_SORTED || !cuts.iter().all(|&cut| is_safe(self, cut)) {
+            return None;
+        }
+        for round in 1..cuts.len() {
+            for k in 0..cuts.len() - round {
+                let pair = [cuts[k], cuts[k + 1]];
+                cuts[k] = self.g.apply(Prim::Min, &pair);
+                cuts[k + 1] = self.g.apply(Prim::Max, &pair);
+            }
+        }
+        let (first, last) = (*cuts.first()?, *cuts.last()?);
+        let one = self.g.real(1.0);
+        let [below, above] = [(first, -1.0), (last, 1.0)].map(|(cut, side)| {
+            let size = self.g.apply(Prim::Abs, &[cut]);
+            let far = self.g.apply(Prim::Max, &[size, one]);
+            let step = scale(self.g, side, far);
+            self.g.add(cut, step)
+        });
+        let mut places = vec![below];
+        for pair in cuts.windows(2) {
+            let halves = [pair[0], pair[1]].map(|cut| scale(self.g, 0.5, cut));
+            places.push(self.g.add(halves[0], halves[1]));
+        }
+        places.push(above);
+        Some((cuts, places))
+    }
+
+    /// The cuts in order, if all of them are known numbers.
+    fn constant_cuts(&mut self, cuts: &[Id]) -> Option<Vec<f64>> {
+        let cuts: Option<Vec<f64>> = cuts.iter().map(|&cut| self.g.as_real(cut)).collect();
         // + 0 makes -0 to 0
         let mut cuts: Vec<f64> = cuts?.into_iter().map(|cut| cut + 0.0).collect();
         // the zeros of a polynomial that has none

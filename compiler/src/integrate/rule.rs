@@ -26,6 +26,8 @@ pub enum Rule {
     Logistic,
     Gaussian,
     PolynomialByGaussian,
+    GaussianByWave,
+    ReciprocalProduct,
 }
 
 /// What a rule does.
@@ -45,7 +47,7 @@ pub struct Record {
 }
 
 /// Every rule, in the order of [`Rule`].
-pub static RULES: [Record; 22] = [
+pub static RULES: [Record; 24] = [
     Record {
         rule: Rule::Constant,
         name: "constant",
@@ -179,9 +181,9 @@ pub static RULES: [Record; 22] = [
     },
     Record {
         rule: Rule::Sigmoidal,
-        name: "tanh, atan, asinh, erf",
+        name: "tanh, atan, asinh, erf, erfc",
         equation: "the difference of log cosh x, x atan x - log √(1 + x²), x asinh x - √(1 + x²), x erf x + \
-                   e^(-x²)/√π; nodes on short intervals",
+                   e^(-x²)/√π, i¹erfc x; nodes on short intervals",
         bound: "always",
         source: "NIST DLMF 4.40.3, 4.26.14, 4.40.11, 7.7",
     },
@@ -207,6 +209,22 @@ pub static RULES: [Record; 22] = [
                    nodes where the exponent changes by less than degree + 2",
         bound: "degree up to 7",
         source: "NIST DLMF 7.18",
+    },
+    Record {
+        rule: Rule::GaussianByWave,
+        name: "Gaussian by wave",
+        equation: "∫ₓ^∞ e^(-u² + iκu) du = (√π/2) e^(-x² + iκx) w(κ/2 + ix) from both ends, and √π e^(-κ²/4) around \
+                   the centre; nodes of the product where exponent and phases change by less than 4",
+        bound: "always; w right to 3e-13",
+        source: "NIST DLMF 7.2(i), 7.7; Weideman, SIAM Journal on Numerical Analysis 31, 1994",
+    },
+    Record {
+        rule: Rule::ReciprocalProduct,
+        name: "product of reciprocals",
+        equation: "∫ 1/(xy) = L log1p(z)/(z x₀ y₁), z = L (x'y - y'x)/(x₀ y₁); ∫ 1/(q₁q₂) by partial fractions, and \
+                   ∫₀¹ ∫ 1/((1 - t) q₁ + t q₂)² dt by 8 nodes where the zeros of both are near one another",
+        bound: "two of degree 1, or two of degree 2 without zeros on the line; the nodes right to 1e-12",
+        source: "Feynman, Physical Review 76, 1949, equation 14; elementary",
     },
 ];
 

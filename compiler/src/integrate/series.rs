@@ -15,7 +15,7 @@ impl Integrator<'_> {
         let Some((it, state, term)) = self.sum_of_terms(result) else {
             return Err(self.problem(result, Reason::Loop));
         };
-        let known = (self.parts.len(), self.numerical.len());
+        let known = (self.parts.len(), self.numerical.len(), self.rest.len());
         let otherwise = std::mem::replace(&mut self.otherwise, Otherwise::Refuse);
         let closed = self.whole(term);
         self.otherwise = otherwise;
@@ -24,6 +24,7 @@ impl Integrator<'_> {
             Err(_) => {
                 self.parts.truncate(known.0);
                 self.numerical.truncate(known.1);
+                self.rest.truncate(known.2);
                 if let Some(sum) = self.unrolled(&it, state, term) {
                     return Ok((self.whole(sum)?, Rule::Series));
                 }
@@ -62,7 +63,7 @@ impl Integrator<'_> {
     }
 
     /// The loop, the state that is added up, and what is added.
-    fn sum_of_terms(&mut self, result: Id) -> Option<(Loop, State, Id)> {
+    pub(super) fn sum_of_terms(&mut self, result: Id) -> Option<(Loop, State, Id)> {
         let node = self.g.node(result).clone();
         let it = self.g.as_loop(*node.args.first()?)?;
         let leaf = self.g.leaf_of_result(result)?;

@@ -5,6 +5,9 @@ use smallvec::SmallVec;
 use super::arithmetic::{add, mul};
 use crate::ir::{Graph, Id, Prim};
 
+/// Greatest number of factors of a divisor that are looked at.
+const MAX_DIVISORS: usize = 16;
+
 /// A function of the path's parameter that the rules know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Factor {
@@ -125,7 +128,10 @@ impl Term {
         }
         for &factor in &self.factors {
             let inverse = match factor {
-                Factor::Polynomial(p) => powers_of(g, p, &degree)?,
+                Factor::Polynomial(p) => {
+                    out.divide(g, p, &degree)?;
+                    continue;
+                }
                 Factor::Exponential(exponent) => Factor::Exponential(g.neg(exponent)),
                 Factor::Power(base, exponent) => Factor::Power(base, g.neg(exponent)),
                 Factor::Wave(Prim::Cosh, x) => Factor::Function(Prim::Sech, x),
@@ -135,6 +141,24 @@ impl Term {
         }
         out.source = self.source;
         Some(out)
+    }
+
+    /// Divides by a polynomial that is a power of one of degree 1 or 2, or is written as a product of such.
+    fn divide(&mut self, g: &mut Graph, p: Id, degree: &impl Fn(Id) -> Option<u32>) -> Option<()> {
+        let mut stack = vec![p];
+        while let Some(p) = stack.pop() {
+            let node = g.node(p).clone();
+            if degree(p) == Some(0) {
+                self.coefficient = g.div(self.coefficient, p);
+            } else if let Some(power) = powers_of(g, p, degree) {
+                self.push(g, power);
+            } else if node.op == crate::ir::Op::Apply(Prim::Mul) && stack.len() < MAX_DIVISORS {
+                stack.extend(node.args);
+            } else {
+                return None;
+            }
+        }
+        Some(())
     }
 
     /// The term as an expression.

@@ -1,6 +1,7 @@
 //! `pullback explain`
 
 mod integral;
+mod proof;
 
 use std::io::{self, Write};
 
@@ -43,6 +44,8 @@ enum Part {
     Derivative,
     /// The integral of a function of space along a ray
     Integral,
+    /// Whether that integral is one: its derivatives by its ends are the function, and its parts add up
+    Proof,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -106,6 +109,7 @@ pub(super) fn run(arguments: &ExplainArguments, console: &Console) -> Result<(),
         Part::Integral => {
             return integral::run(&source, picture, &params, arguments.format, console);
         }
+        Part::Proof => return proof::run(&source, picture, arguments.format, console),
     };
     let made = stable::explain(&picture.formula, &params, what);
     let made = made.map_err(|error| vec![error.diagnostic(&picture.formula)]);

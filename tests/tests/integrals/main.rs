@@ -1,8 +1,13 @@
 //! Integrals along rays against mpmath at 60 digits: tests/oracle/integrals_rays.py.
 
+mod bad_input;
 #[cfg(feature = "gpu")]
 mod gpu;
+mod growth;
+mod infinite;
 mod language;
+mod nodes;
+mod proof;
 mod ridge;
 mod textbook;
 
@@ -193,9 +198,16 @@ fn slope_error(of: &Formula, integral: &Formula, rays: &[Ray]) -> f64 {
         let length = (ray.args[7] - ray.args[6]).abs();
         let mean = if length > 0.0 { ray.size / length } else { 0.0 };
         let (slope, value) = (slope[8], value[0]);
+        // both are roundings where f is 0 all along
+        if ray.size == 0.0 && slope.abs() < 1e-14 && value == 0.0 {
+            continue;
+        }
         let error = (slope - value).abs() / slope.abs().max(value.abs()).max(mean).max(1e-30);
         if length > 0.0 {
             worst = worst.max(if error.is_nan() { f64::INFINITY } else { error });
+            if error.is_nan() || error > 1e-7 {
+                println!("    dI/db = {slope:e}, not {value:e} at {:?}", ray.args);
+            }
         }
     }
     worst
@@ -378,6 +390,11 @@ fn bells() {
 }
 
 #[test]
+fn products() {
+    check("products");
+}
+
+#[test]
 fn scenes() {
     check("scenes");
 }
@@ -425,6 +442,7 @@ fn extreme_rays_give_numbers() {
         "affine",
         "bells",
         "scenes",
+        "products",
         "random",
     ] {
         for density in densities(class) {

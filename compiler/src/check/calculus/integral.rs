@@ -5,12 +5,12 @@ use pullback_grammar::{Diagnostic, Span, print_expr};
 use smallvec::SmallVec;
 
 use crate::check::{Builder, Value, shortened};
-use crate::integrate::{Otherwise, Path, Problem, integrate, quadrature};
+use crate::integrate::{MAX_PANELS, Otherwise, Path, Problem, improper, integrate, quadrature};
 use crate::ir::{Id, Prim, Ty};
 use crate::types::Type;
 
-/// Number of steps that an integral counts as among nested loops: as many as a quadrature has panels.
-const STEPS: u32 = 16;
+/// Number of steps that an integral counts as among nested loops: about as many as a quadrature takes panels.
+const STEPS: u32 = 32;
 
 /// Greatest number of integrals of a program.
 pub const MAX_INTEGRALS: usize = 100;
@@ -39,7 +39,7 @@ impl<'a> Builder<'a> {
             range,
             span,
         };
-        let ends = self.ends(range);
+        let ends = self.ends(range, method);
         let leaf = self.graph.new_variable(Ty::Real);
         self.graph.set_name(leaf, &range.name.text);
         let before = self.nesting.enter(STEPS);
@@ -56,7 +56,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The ends, where both are real numbers.
-    fn ends(&mut self, range: &Range) -> Option<(Id, Id)> {
+    fn ends(&mut self, range: &Range, method: Method) -> Option<(Id, Id)> {
         let mut found: SmallVec<[Id; 2]> = SmallVec::new();
         for (end, which) in [(range.lower, "lower"), (range.upper, "upper")] {
             let value = self.expr(end);
@@ -76,7 +76,7 @@ impl<'a> Builder<'a> {
             }
         }
         for (&id, end) in found.iter().zip([range.lower, range.upper]) {
-            if self.graph.as_real(id).is_some_and(f64::is_infinite) {
+            if method == Method::Quadrature && self.is_infinite(id) {
                 self.no_infinite_end(end);
                 return None;
             }
@@ -91,7 +91,7 @@ impl<'a> Builder<'a> {
         let problem = Diagnostic::error(
             "no-closed-form",
             self.span(end),
-            "an integral to infinity is not available",
+            "a quadrature to infinity is not available",
         )
         .with_label("infinite")
         .with_hint(
@@ -117,30 +117,46 @@ impl<'a> Builder<'a> {
                 format!("more than {MAX_INTEGRALS} integrals, those of called functions each time");
             return self.report(Diagnostic::error("too-large", written.span, message));
         }
-        let path = Path::of_variable(&mut self.graph, leaf, ends.0, ends.1);
         let mut results: SmallVec<[Id; 4]> = SmallVec::new();
         for id in value.ids() {
             let result = if self.graph.ty(id) == Ty::Complex {
                 let parts = [Prim::Re, Prim::Im].map(|part| self.graph.apply(part, &[id]));
-                let re = self.real_integral(written, parts[0], &path);
-                let im = re.and_then(|re| Ok((re, self.real_integral(written, parts[1], &path)?)));
+                let re = self.real_integral(written, parts[0], (leaf, ends));
+                let im = re
+                    .and_then(|re| Ok((re, self.real_integral(written, parts[1], (leaf, ends))?)));
                 im.map(|(re, im)| self.graph.apply(Prim::Complex, &[re, im]))
             } else {
-                self.real_integral(written, id, &path)
+                self.real_integral(written, id, (leaf, ends))
             };
             match result {
                 Ok(result) => results.push(result),
-                Err(problem) => return self.no_closed_form(written, &problem),
+                Err(problem) => return self.no_closed_form(written, ends, &problem),
             }
         }
-        let cost = u64::from(STEPS) * 2;
-        if let Some(constants) = self.folding.fold(&mut self.graph, &results, cost) {
+        let steps = match written.method {
+            Method::Closed => STEPS * 2,
+            Method::Quadrature => MAX_PANELS,
+        };
+        if let Some(constants) = self.folding.fold(&mut self.graph, &results, steps.into()) {
             results = constants;
         }
         value.with_ids(&results)
     }
 
-    fn real_integral(&mut self, written: Written, root: Id, path: &Path) -> Result<Id, Problem> {
+    fn is_infinite(&self, id: Id) -> bool {
+        self.graph.as_real(id).is_some_and(f64::is_infinite)
+    }
+
+    fn real_integral(
+        &mut self,
+        written: Written,
+        root: Id,
+        (leaf, ends): (Id, (Id, Id)),
+    ) -> Result<Id, Problem> {
+        if self.is_infinite(ends.0) || self.is_infinite(ends.1) {
+            return improper(&mut self.graph, root, leaf, [ends.0, ends.1]).map(|i| i.value);
+        }
+        let path = &Path::of_variable(&mut self.graph, leaf, ends.0, ends.1);
         match written.method {
             Method::Closed => {
                 integrate(&mut self.graph, root, path, Otherwise::Refuse).map(|i| i.value)
@@ -149,14 +165,17 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn no_closed_form(&mut self, written: Written, problem: &Problem) -> Value {
+    fn no_closed_form(&mut self, written: Written, ends: (Id, Id), problem: &Problem) -> Value {
         let Range { name, lower, upper } = written.range;
         let exprs = &self.file.exprs;
         let [body, a, b] = [written.body, *lower, *upper].map(|e| shortened(&print_expr(exprs, e)));
         let mut diagnostic = problem.diagnostic(written.span);
-        if written.method == Method::Closed {
+        let is_finite = !self.is_infinite(ends.0) && !self.is_infinite(ends.1);
+        if written.method == Method::Closed && is_finite {
             let call = format!("quadrature({body}, {}, {a}, {b})", shortened(&name.text));
             diagnostic = diagnostic.with_hint(format!("`{call}` computes it numerically"));
+        } else if !is_finite {
+            diagnostic = diagnostic.with_hint("take finite ends");
         }
         self.report(diagnostic)
     }

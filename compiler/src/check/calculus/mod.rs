@@ -125,7 +125,7 @@ static OPERATORS: [Operator; 12] = [
         name: "quadrature",
         usage: "quadrature(e, t, a, b), quadrature(t in a..b, e)",
         takes: "real, complex, vectors",
-        doc: "definite integral by a fixed rule of 96 points on each piece between changes of conditions",
+        doc: "definite integral by Gauss-Legendre nodes, as many as a bound of the error asks for",
         kind: Kind::Integral,
     },
 ];

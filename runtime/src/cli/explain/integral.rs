@@ -4,7 +4,9 @@ use std::io::{self, Write};
 
 use pullback_compiler::Picture;
 use pullback_compiler::formula::Formula;
-use pullback_compiler::integrate::{self, Explanation, Record};
+use pullback_compiler::integrate::{
+    self, BOUNDED_NODES, Explanation, MAX_PANELS, NODES, PANELS, Record, Rest, SAMPLE, TOLERANCE,
+};
 use serde::Serialize;
 
 use super::super::Console;
@@ -20,6 +22,7 @@ struct Report<'a> {
     pieces: bool,
     parts: Vec<Part<'a>>,
     numerical: Vec<Numerical<'a>>,
+    quadrature: Vec<Quadrature<'a>>,
     compiled: &'a str,
     operations: u32,
 }
@@ -41,6 +44,33 @@ struct Numerical<'a> {
     end: u32,
     proven: bool,
     reason: String,
+}
+
+/// A part that is integrated by nodes; `without` is what no bound is known of.
+#[derive(Serialize)]
+struct Quadrature<'a> {
+    integrand: &'a str,
+    nodes: usize,
+    most_panels: u32,
+    tolerance: Option<f64>,
+    without: Option<&'a str>,
+    ray: [f64; 8],
+    panels: Option<f64>,
+    error: Option<f64>,
+}
+
+fn quadrature(rest: &Rest) -> Quadrature<'_> {
+    let is_bounded = rest.without.is_none();
+    Quadrature {
+        integrand: &rest.integrand,
+        nodes: if is_bounded { BOUNDED_NODES } else { NODES },
+        most_panels: if is_bounded { MAX_PANELS } else { PANELS },
+        tolerance: is_bounded.then_some(TOLERANCE),
+        without: rest.without.as_ref().map(|w| w.0.as_str()),
+        ray: SAMPLE,
+        panels: rest.along_sample.map(|s| s[0]),
+        error: rest.along_sample.map(|s| s[1]),
+    }
 }
 
 /// Explains the integral of a picture's formula along a ray.
@@ -86,20 +116,46 @@ fn tell(out: &mut impl Write, formula: &Formula, found: &Explanation) -> io::Res
         rule(out, part.rule, &mut told)?;
     }
     if !found.numerical.is_empty() {
-        writeln!(
-            out,
-            "\nwithout closed form; 16 panels of 6 Gauss-Legendre nodes instead"
-        )?;
+        writeln!(out, "\nwithout closed form")?;
     }
     for (text, problem) in &found.numerical {
         writeln!(out, "{}", indented(text))?;
         writeln!(out, "      {}", problem.reason.in_words())?;
+    }
+    for part in &found.rest {
+        rest(out, part)?;
     }
     writeln!(
         out,
         "\ncompiled, {} operations\n{}",
         found.operations,
         indented(&found.compiled)
+    )
+}
+
+/// How a part is integrated numerically: by a bound of its error, or by a fixed rule.
+fn rest(out: &mut impl Write, part: &Rest) -> io::Result<()> {
+    writeln!(out, "\nby nodes\n{}", indented(&part.integrand))?;
+    if let Some((text, _)) = &part.without {
+        return writeln!(
+            out,
+            "      no bound of its error is known, for want of one of {text}: {PANELS} panels of {NODES} \
+             Gauss-Legendre nodes"
+        );
+    }
+    writeln!(
+        out,
+        "      panels of {BOUNDED_NODES} Gauss-Legendre nodes, at most {MAX_PANELS}, each as short as the bound of its \
+         error asks for: {TOLERANCE:e} of its length times the greatest |f|"
+    )?;
+    let Some([panels, bound]) = part.along_sample else {
+        return Ok(());
+    };
+    let [ox, oy, oz, dx, dy, dz, a, b] = SAMPLE;
+    writeln!(
+        out,
+        "      for o = ({ox}, {oy}, {oz}), d = ({dx}, {dy}, {dz}), t from {a} to {b}: {panels} panels, the error at most \
+         {bound:.1e}"
     )
 }
 
@@ -152,6 +208,7 @@ fn write_json(
                 reason: problem.reason.in_words(),
             })
             .collect(),
+        quadrature: found.rest.iter().map(quadrature).collect(),
         compiled: &found.compiled,
         operations: found.operations,
     };
