@@ -121,6 +121,7 @@ const LIBRARY: &str = concat!(
     include_str!("../../data/functions/library.txt"),
     include_str!("../../data/functions/shapes.txt"),
     include_str!("../../data/functions/noise.txt"),
+    include_str!("../../data/functions/light.txt"),
 );
 
 /// The formulas of the gallery.
