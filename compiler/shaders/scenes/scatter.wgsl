@@ -114,7 +114,7 @@ fn field(p: vec3f) -> f32 { return 0.0; }
 fn field_column(o: vec3f, d: vec3f, a: f32, b: f32) -> vec3f { return vec3f(); }
 
 fn is_nan(x: f32) -> bool { return false; }
-fn is_inf(x: f32) -> bool { return false; }
+fn column_within(column: vec3f, most: f32) -> f32 { return 0.0; }
 fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
 fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn sky_at(direction: vec3f, background: vec3f) -> vec3f { return vec3f(); }
@@ -166,9 +166,9 @@ fn density_of(value: f32) -> f32 {
 // The integral of the density along a way: in closed form where there is one that is a number, else by the midpoint rule.
 fn column_of(way: Way) -> f32 {
     if settings.steps_by != BY_SAMPLES {
-        let exact = field_column(way.ray.origin, way.ray.direction, 0.0, way.extent);
-        if exact.y == 1.0 && !is_nan(exact.x) && !is_inf(exact.x) {
-            return clamp(exact.x, 0.0, densest() * way.extent);
+        let exact = column_within(field_column(way.ray.origin, way.ray.direction, 0.0, way.extent), densest() * way.extent);
+        if exact >= 0.0 {
+            return exact;
         }
     }
     var column = 0.0;

@@ -8,6 +8,12 @@ fn depth_of_column(column: vec3f, medium: Medium) -> f32 {
     return select(-1.0, max(depth, 0.0), same && !is_nan(depth) && !is_inf(depth));
 }
 
+// A column of the values above 0, or what is the most that it can be: negative where none has been compiled, and where it is no number.
+fn column_within(column: vec3f, most: f32) -> f32 {
+    let known = column.y == 1.0 && column.z == 1.0 && !is_nan(column.x) && !is_inf(column.x);
+    return select(-1.0, clamp(column.x, 0.0, most), known);
+}
+
 // x to a power; to 1 and 2 without the error of `pow`.
 fn plain_power(x: f32, power: f32) -> f32 {
     return select(select(pow(x, power), x * x, power == 2.0), x, power == 1.0);
