@@ -559,7 +559,24 @@ def spotlight(x, y, z):
     return least(greatest(0 * t, t), 0 * t + 1) ** 2
 
 
+def helix(x, y, z):
+    total = 0 * x
+    for k in range(12):
+        angle = 0 * x + PI  # the error of the angle moves the centre
+        angle = angle * k / 4
+        c = [mp.mpf("0.9") * cos(angle), mp.mpf("0.9") * sin(angle), (k - mp.mpf("5.5")) / 4]
+        total = total + exp(-18 * sum(((p - q) ** 2 for p, q in zip((x, y, z), c)), start=0 * x))
+    return total
+
+
+def shadow(x, y, z):
+    fog = mp.mpf("0.12") * exp(-mp.mpf("2.5") * (z + mp.mpf("1.2")))
+    return fog + 5 * exp(-14 * ((x - mp.mpf("0.2")) ** 2 + (y + mp.mpf("0.1")) ** 2 + (z - mp.mpf("0.3")) ** 2))
+
+
 SPACE = {
+    "helix": (helix, 2, [(0.9, 0, -1.375), (0, 0.9, -0.875), (0, 0, 0)]),
+    "shadow": (shadow, 2, [(0.2, -0.1, 0.3), (0, 0, -1.2), (0, 0, 0)]),
     "hologram": (lambda x, y, z: mp.mpf("0.5") + mp.mpf("0.5") * sin(9 * z), 1.5, [(0, 0, 0.17453292), (0, 0, 0.52359877), (0, 0, 0)]),
     "mist": (lambda x, y, z: exp(-mp.mpf("2.5") * (z + 1)), 3, [(0, 0, -1), (0, 0, 1)]),
     "rainbow-tunnel": (lambda x, y, z: mp.mpf("0.5") + mp.mpf("0.5") * sin(2 * PI * z), 2.5, [(0, 0, 0.25), (0, 0, 0.75), (0, 0, 0)]),

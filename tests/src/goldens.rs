@@ -113,6 +113,38 @@ pub fn all() -> Vec<Golden> {
             },
         });
     }
+    let medium = |f: &str, scene: &str, settings: &str| {
+        format!("f(x, y, z) = {f}\nshow {scene}(f) {{ {settings} }}")
+    };
+    all.push(Golden {
+        name: "columns".to_owned(),
+        panels: vec![
+            medium(
+                "max(0, 1 - x^2 - y^2/2 - z^2)",
+                "volume",
+                "power = 1, signs = positive, emission = even",
+            ),
+            medium(
+                "sin(3 x) cos(2 y) + z/2",
+                "volume",
+                "steps_by = integral, steps = 24",
+            ),
+            medium(
+                "exp(-2 (z + 2)) + 3 exp(-4 (x^2 + y^2 + z^2))",
+                "scatter",
+                "steps_by = integral, steps = 24",
+            ),
+            medium(
+                "√x",
+                "volume",
+                "power = 1, signs = positive, emission = even",
+            ),
+        ],
+        size: Size {
+            width: 48,
+            height: 40,
+        },
+    });
     all
 }
 

@@ -19,10 +19,11 @@ use naga::{
 };
 
 /// Stubs that the compiler fills in, with what is in the components of their results.
-pub const FIELD_STUBS: [&str; 9] = [
+pub const FIELD_STUBS: [&str; 10] = [
     "field",
     "field_grad",
     "field_integral",
+    "field_column",
     "field_jet2",
     "field_ray",
     "map",

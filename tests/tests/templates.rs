@@ -232,6 +232,10 @@ fn demands_have_the_contract_s_signatures() {
             "field_integral",
             vec!["fn field_integral(o: vec3f, d: vec3f, a: f32, b: f32) -> f32"],
         ),
+        (
+            "field_column",
+            vec!["fn field_column(o: vec3f, d: vec3f, a: f32, b: f32) -> vec3f"],
+        ),
         ("map", vec!["fn map(offset: vec2f) -> vec2f"]),
         ("map_jet", vec!["fn map_jet(offset: vec2f) -> Jet"]),
         ("chart_jet", vec!["fn chart_jet(z: vec2f) -> Jet"]),

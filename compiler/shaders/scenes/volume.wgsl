@@ -13,6 +13,8 @@
 // | exposure, tone, gamma  |          | of the radiance; 0 Reinhard, 1 none; exponent 1/gamma after that |
 // | jitter                 |          | how far stretches begin at another place in each sample |
 // | steps                  |          | stretches along the diagonal of the box |
+// | steps_by               |          | of their optical depths: 0 as is best, 1 samples, 2 closed forms where there are any |
+// | emission               |          | 0 graded by the values, 1 even: of the colour of the sign |
 // | camera                 |          | where it is and how it sees |
 // | light_yaw, light_pitch | degrees  | of the light; yaw from the camera or from +x |
 // | backdrop, background   | linear   | behind the box: 0 one colour, 1 nothing |
@@ -64,6 +66,8 @@ struct Settings {
     box: vec3f,
     center: vec3f,
     gas: Gas,
+    steps_by: u32,
+    emission: u32,
     camera: Camera,
     light_yaw: f32,
     light_pitch: f32,
@@ -124,6 +128,8 @@ struct Seen {
 
 // (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
 fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
+// ∫ |f|^power over the values of `signs` along o + t d from t = a to t = b, that power, and those signs as in `Gas`; power 0 for none
+fn field_column(o: vec3f, d: vec3f, a: f32, b: f32) -> vec3f { return vec3f(); }
 
 fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
 fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
@@ -136,10 +142,15 @@ fn stretch_of(k: u32, stretches: Stretches) -> vec2f { return vec2f(); }
 fn gas_over(seen: Seen, behind: vec4f, gas: Gas) -> vec4f { return vec4f(); }
 fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f { return vec4f(); }
 fn seen_through(seen: Seen, matter: Matter, length: f32) -> Seen { return Seen(); }
+fn depth_of_column(column: vec3f, medium: Medium) -> f32 { return 0.0; }
+fn seen_through_depth(seen: Seen, colour: vec3f, depth: f32) -> Seen { return Seen(); }
+fn seen_through_column(seen: Seen, near: Matter, far: Matter, depth: f32) -> Seen { return Seen(); }
 
 const EDGE: vec3f = vec3f(0.42, 0.45, 0.50);
 // What has to come through for more of a ray to be looked at.
 const THINNEST: f32 = 0.0005;
+const BY_SAMPLES: u32 = 1u;
+const EVEN: u32 = 1u;
 
 fn medium() -> Medium {
     let light = light_toward(settings.camera, settings.light_yaw, settings.light_pitch, settings.light_from);
@@ -155,16 +166,61 @@ fn edged(under: vec4f, sight: Sight, t: f32, strength: f32) -> vec4f {
     return with_edges(under, sight, t, settings.center, settings.box, settings.edge_width, Layer(EDGE, strength));
 }
 
-// Radiance of the medium on a ray in the box, and what comes through, by the midpoint rule in each stretch.
+// Colour of even emission where the value is of this sign.
+fn even_colour(below: bool) -> vec3f {
+    return select(settings.gas.positive, settings.gas.negative, below);
+}
+
+// Whether what a ray emits is of one colour: then it is as much of it as the ray is opaque.
+fn is_of_one_colour() -> bool {
+    return settings.emission == EVEN && (settings.gas.signs != 0u || all(settings.gas.positive == settings.gas.negative));
+}
+
+// What the medium is made of at a point.
+fn matter_at(p: vec3f, medium: Medium) -> Matter {
+    let jet = field_grad(p);
+    let matter = matter_of(jet, medium);
+    return Matter(select(matter.colour, even_colour(jet.w < 0.0), settings.emission == EVEN), matter.extinction);
+}
+
+// Radiance of the medium on a ray in the box, and what comes through. A stretch is as its middle; where the density integrates, it has
+// its own optical depth and the colours of two points. A ray of one colour is one stretch.
 fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
     let medium = medium();
     let start = max(span.x, 0.0);
     let stretches = stretches_of(span.y - start, settings.box, settings.gas.steps, settings.gas.jitter, pixel);
+    let by_columns = settings.steps_by != BY_SAMPLES;
+    var whole = by_columns && is_of_one_colour();
     var seen = seen_nothing();
-    for (var k = view.zero; k <= stretches.count && seen.through > THINNEST; k++) {
-        let stretch = stretch_of(k, stretches);
-        let jet = field_grad(ray.origin + (start + 0.5 * (stretch.x + stretch.y)) * ray.direction);
-        seen = seen_through(seen, matter_of(jet, medium), stretch.y - stretch.x);
+    var k = view.zero;
+    while k <= stretches.count && seen.through > THINNEST {
+        let stretch = start + select(stretch_of(k, stretches), vec2f(0.0, stretches.extent), whole);
+        var depth = -1.0;
+        if by_columns {
+            depth = depth_of_column(field_column(ray.origin, ray.direction, stretch.x, stretch.y), medium);
+        }
+        if whole && depth >= 0.0 {
+            return seen_through_depth(seen, even_colour(settings.gas.signs == 2u), depth);
+        }
+        if whole {
+            whole = false;
+            continue;
+        }
+        // one place that evaluates the field: the middle, or both points
+        let apart = select(0.0, 0.2886751345948129 * (stretch.y - stretch.x), depth >= 0.0);
+        var near = Matter();
+        var far = Matter();
+        for (var j = view.zero; j < select(1u, 2u, apart > 0.0); j++) {
+            near = far;
+            let t = 0.5 * (stretch.x + stretch.y) + select(apart, -apart, j == 0u);
+            far = matter_at(ray.origin + t * ray.direction, medium);
+        }
+        if apart > 0.0 {
+            seen = seen_through_column(seen, near, far, depth);
+        } else {
+            seen = seen_through(seen, far, stretch.y - stretch.x);
+        }
+        k++;
     }
     return seen;
 }

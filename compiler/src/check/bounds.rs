@@ -224,8 +224,13 @@ impl Query<'_> {
             (Prim::Round, &[a]) => self.of(a, depth).rising(crate::reference::real::round),
             (Prim::Trunc, &[a]) => self.of(a, depth).rising(f64::trunc),
             (Prim::Abs, &[a]) if self.graph.ty(a) == Ty::Real => self.of(a, depth).size(),
-            (Prim::PowInt(2), &[a]) if self.graph.ty(a) == Ty::Real => {
-                self.of(a, depth).size().rising(|x| x * x)
+            (Prim::PowInt(n), &[a]) if n > 0 && n % 2 == 0 && self.graph.ty(a) == Ty::Real => {
+                self.of(a, depth).size().rising(|x| x.powi(n))
+            }
+            (Prim::Exp, &[a]) if self.graph.ty(a) == Ty::Real => self.of(a, depth).rising(f64::exp),
+            (Prim::Hypot | Prim::Hypot3, _) => {
+                let nan = args.iter().any(|&a| self.of(a, depth).nan);
+                Interval::new(0.0, f64::INFINITY).or_nan(nan)
             }
             (Prim::Sqrt, &[a]) => {
                 let a = self.of(a, depth);

@@ -40,6 +40,7 @@ const SOURCE: &str = concat!(
     include_str!("library/blending.pull"),
     include_str!("library/distance.pull"),
     include_str!("library/noise.pull"),
+    include_str!("library/light.pull"),
 );
 
 /// Longest chain of definitions of the library that call each other.

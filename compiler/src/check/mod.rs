@@ -19,6 +19,7 @@ mod symbols;
 mod value;
 mod variables;
 
+pub(crate) use bounds::Bounds;
 pub use builder::{Builder, MAX_DEPTH, Source};
 pub use builtins::{Builtin, builtins};
 pub use calculus::MAX_ORDER;

@@ -37,7 +37,7 @@ pub fn standalone(
     let mut linker = Linker::new(vec![number_module(precision.into())]);
     let types = NagaTypes::insert(&mut linker.out.types);
     let arguments = arguments(program, formula, &evaluation, types);
-    let [value, gradient, derivative, _] = function_names(&formula.name);
+    let [value, gradient, derivative, ..] = function_names(&formula.name);
     let name = match what {
         What::Value => value,
         What::Gradient => gradient,
@@ -76,14 +76,16 @@ pub fn standalone(
     Ok((module, info, header))
 }
 
-/// Names of the functions for value, gradient, derivative and integral.
-fn function_names(formula: &str) -> [String; 4] {
+/// Names of the functions for value, gradient, derivative, integral, transmittance and opacity.
+fn function_names(formula: &str) -> [String; 6] {
     let formula = crate::lower::identifier(formula);
     [
         formula.clone(),
         format!("{formula}_gradient"),
         format!("{formula}_derivative"),
         format!("{formula}_integral"),
+        format!("{formula}_transmittance"),
+        format!("{formula}_opacity"),
     ]
 }
 

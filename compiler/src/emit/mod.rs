@@ -7,11 +7,14 @@ mod text;
 pub use text::{Target, write};
 
 use pullback_grammar::Diagnostic;
+use smallvec::smallvec;
 
+use crate::formula::Formula;
 use crate::integrate::{Otherwise, field_integral};
+use crate::ir::Prim;
 use crate::lower::{Format, LowerError, Precision, Tier};
 use crate::module::{EvalModule, Evaluator, ModuleError, SceneModule, What};
-use crate::program::{Picture, Program};
+use crate::program::{Picture, Program, SettingValue};
 
 /// What is emitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -24,6 +27,11 @@ pub enum EmitWhat {
     Derivative,
     /// A function for the integral along a ray o + t d from t = a to t = b.
     Integral,
+    /// A function for the part of the light that comes through f as an extinction, exp(-τ) with that integral τ.
+    Transmittance,
+    /// A function for the part that does not, 1 - exp(-τ) without cancellation: times a colour, what a medium emits that glows as
+    /// it absorbs.
+    Opacity,
     /// The whole scene.
     Scene,
 }
@@ -64,6 +72,25 @@ impl Program {
         self.with_picture(picture, |p| SceneModule::new(p, tier))
     }
 
+    /// The scene's module where the picture's settings have other values than in the text: some of them decide what is compiled.
+    ///
+    /// # Errors
+    /// As [`Self::scene_module`].
+    pub fn scene_module_with(
+        &self,
+        picture: usize,
+        settings: &[SettingValue],
+        tier: impl Into<Tier>,
+    ) -> Result<SceneModule, Vec<Diagnostic>> {
+        self.with_picture(picture, |p| {
+            let changed = Picture {
+                settings: settings.to_vec(),
+                ..p.clone()
+            };
+            SceneModule::new(&changed, tier)
+        })
+    }
+
     /// A module that evaluates rows of numbers.
     ///
     /// # Errors
@@ -99,7 +126,9 @@ impl Program {
         self.with_picture(picture, |p| {
             can_say(target, precision)?;
             let (mut module, info, header) = match what {
-                EmitWhat::Integral => self.integral_function(p, precision, target)?,
+                EmitWhat::Integral | EmitWhat::Transmittance | EmitWhat::Opacity => {
+                    self.integral_function(p, what, precision, target)?
+                }
                 EmitWhat::Scene => {
                     let scene = SceneModule::new(p, precision)?;
                     (
@@ -124,10 +153,11 @@ impl Program {
         })
     }
 
-    /// A function for the integral of a picture's formula along a ray, and what is said of it.
+    /// A function for the integral of a picture's formula along a ray or what hangs on it, and what is said of it.
     fn integral_function(
         &self,
         picture: &Picture,
+        what: EmitWhat,
         precision: Precision,
         target: Target,
     ) -> Result<(naga::Module, naga::valid::ModuleInfo, String), ModuleError> {
@@ -135,9 +165,14 @@ impl Program {
         let made =
             field_integral(formula, Otherwise::Quadrature).map_err(LowerError::NoIntegral)?;
         let is_closed = made.integral.numerical.is_empty();
-        let integral = made.into_formula(formula);
+        let integral = of_depth(made.into_formula(formula), formula, what);
         let (module, info, header) =
             function::standalone(self, &integral, What::Value, precision, target)?;
+        let of = match what {
+            EmitWhat::Transmittance => "transmittance exp(-τ) of the integral τ",
+            EmitWhat::Opacity => "opacity 1 - exp(-τ) of the integral τ",
+            _ => "integral",
+        };
         let kind = if is_closed {
             "in closed form"
         } else {
@@ -146,9 +181,29 @@ impl Program {
         Ok((
             module,
             info,
-            format!("{header}, the integral along o + t d from a to b, {kind}"),
+            format!("{header}, the {of} along o + t d from a to b, {kind}"),
         ))
     }
+}
+
+/// An optical depth, or the transmittance or the opacity of it.
+fn of_depth(mut depth: Formula, of: &Formula, what: EmitWhat) -> Formula {
+    let &[value] = depth.value.as_slice() else {
+        return depth;
+    };
+    let g = &mut depth.graph;
+    let turned = g.neg(value);
+    let (value, name) = match what {
+        EmitWhat::Transmittance => (g.apply(Prim::Exp, &[turned]), "transmittance"),
+        EmitWhat::Opacity => {
+            let change = g.apply(Prim::Expm1, &[turned]);
+            (g.neg(change), "opacity")
+        }
+        _ => return depth,
+    };
+    depth.value = smallvec![value];
+    depth.name = format!("{}_{name}", of.name);
+    depth
 }
 
 /// Fails where a shading language cannot say what a tier needs: 64-bit numbers, and their bits as integers.

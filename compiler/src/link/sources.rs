@@ -89,6 +89,7 @@ const SHARED: &str = concat!(
     include_str!("../../shaders/shared/march.wgsl"),
     include_str!("../../shaders/shared/shells.wgsl"),
     include_str!("../../shaders/shared/medium.wgsl"),
+    include_str!("../../shaders/shared/column.wgsl"),
     include_str!("../../shaders/shared/glow.wgsl"),
 );
 

@@ -70,6 +70,8 @@ pub enum LowerError {
     NoDerivative(crate::derive::NoDerivative),
     /// An integral that the template asks for exceeds a bound.
     NoIntegral(crate::integrate::Problem),
+    /// The density of the scene's medium has no closed form along rays, and nothing else is wanted.
+    NoColumn(crate::integrate::Problem),
     /// The template asks for something that the formula's type does not have.
     Demand(String),
     /// A library function could not be linked.

@@ -2,6 +2,7 @@
 
 use naga::{Function, GlobalVariable, Handle};
 
+use super::column::Column;
 use super::reciprocal::reciprocal;
 use super::substitute::substitute;
 use crate::derive::{ComplexVariable, forward, gradient, jet};
@@ -13,13 +14,14 @@ use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, P
 use crate::stable::finish;
 
 /// Names of the stubs that are filled from a formula.
-pub const DEMANDS: [&str; 10] = [
+pub const DEMANDS: [&str; 11] = [
     "field",
     "field_colour",
     "field_grad",
     "field_jet2",
     "field_ray",
     "field_integral",
+    "field_column",
     "map",
     "map_jet",
     "chart_jet",
@@ -33,16 +35,18 @@ pub struct Demand<'f> {
     pub formula: &'f Formula,
     /// The function that gives the colours, if there is one.
     pub colour: Option<&'f Formula>,
+    /// The column of the scene's medium, where that is taken in closed form.
+    pub column: Option<Column>,
     /// Which forms of functions are called.
     pub precision: Precision,
 }
 
 /// Roots in a graph, and how they make up the result of a stub.
-struct Answer {
-    graph: Graph,
-    roots: Vec<Id>,
-    inputs: Vec<Argument>,
-    output: Output,
+pub(super) struct Answer {
+    pub(super) graph: Graph,
+    pub(super) roots: Vec<Id>,
+    pub(super) inputs: Vec<Argument>,
+    pub(super) output: Output,
 }
 
 impl Provider for Demand<'_> {
@@ -60,6 +64,7 @@ impl Provider for Demand<'_> {
             "field_jet2" => self.second_jet(stub)?,
             "field_ray" => self.ray(types)?,
             "field_integral" => self.integral()?,
+            "field_column" => self.column(stub)?,
             "map" => self.map(),
             "map_jet" => {
                 let (graph, roots) = self.graph();

@@ -1,5 +1,6 @@
 //! Finished shader modules: a scene with a formula in it, and the evaluation of rows of numbers.
 
+mod column;
 mod demand;
 mod evaluation;
 mod reciprocal;
@@ -55,6 +56,9 @@ impl ModuleError {
                 ),
             ),
             Self::Lower(LowerError::NoIntegral(problem)) => problem.diagnostic(span),
+            Self::Lower(LowerError::NoColumn(problem)) => problem.diagnostic(span).with_hint(
+                "this scene wants it for `steps_by = integral`; `steps_by = samples` steps along rays, `auto` where it has to",
+            ),
             Self::Lower(LowerError::Demand(message)) => {
                 Diagnostic::error("wrong-demand", span, message.clone())
             }

@@ -3,6 +3,7 @@
 use naga::valid::ModuleInfo;
 use naga::{Module, ScalarKind, StructMember, TypeInner};
 
+use super::column::Column;
 use super::demand::Demand;
 use super::{ModuleError, validate};
 use crate::formula::Formula;
@@ -96,13 +97,14 @@ impl SceneModule {
     /// # Errors
     /// As [`Self::new`].
     pub fn link(picture: &Picture, tier: impl Into<Tier>) -> Result<Module, ModuleError> {
-        let colour = picture.colour.as_ref();
-        Self::splice_both(
-            picture.scene.module(),
-            &picture.formula,
-            colour,
-            tier.into(),
-        )
+        let tier = tier.into();
+        let demand = Demand {
+            formula: &picture.formula,
+            colour: picture.colour.as_ref(),
+            column: Column::of(&picture.settings),
+            precision: tier.precision,
+        };
+        Self::fill(picture.scene.module(), demand, tier)
     }
 
     /// [`Self::link`] for any template.
@@ -110,22 +112,18 @@ impl SceneModule {
     /// # Errors
     /// As [`Self::new`].
     pub fn splice(template: &Module, formula: &Formula, tier: Tier) -> Result<Module, ModuleError> {
-        Self::splice_both(template, formula, None, tier)
-    }
-
-    fn splice_both(
-        template: &Module,
-        formula: &Formula,
-        colour: Option<&Formula>,
-        tier: Tier,
-    ) -> Result<Module, ModuleError> {
-        let sources = Sources::get(tier);
-        let mut linker = Linker::new(vec![template, sources.entry, sources.shared, sources.math]);
-        let mut demand = Demand {
+        let demand = Demand {
             formula,
-            colour,
+            colour: None,
+            column: None,
             precision: tier.precision,
         };
+        Self::fill(template, demand, tier)
+    }
+
+    fn fill(template: &Module, mut demand: Demand<'_>, tier: Tier) -> Result<Module, ModuleError> {
+        let sources = Sources::get(tier);
+        let mut linker = Linker::new(vec![template, sources.entry, sources.shared, sources.math]);
         linker.link_entry_points(1, &mut demand)?;
         Ok(linker.out)
     }

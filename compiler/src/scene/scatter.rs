@@ -57,6 +57,7 @@ pub const SCENE: Scene = Scene {
             (1.0, 4096.0),
             "the same on the way from the light, for each of those stretches",
         ),
+        space::STEPS_BY,
         camera::CAMERA,
         camera::PROJECTION,
         camera::YAW,

@@ -237,6 +237,18 @@ pub(super) const STRETCHES: SettingSpec = SettingSpec::integer(
     (4.0, 8192.0),
     "stretches that the diagonal of the box is divided into",
 );
+pub(super) const STEPS_BY: SettingSpec = SettingSpec::choice(
+    "steps_by",
+    &["auto", "samples", "integral"],
+    0.0,
+    "optical depths by the density at points, by its closed-form integrals, or by these where that is faster",
+);
+pub(super) const EMISSION: SettingSpec = SettingSpec::choice(
+    "emission",
+    &["graded", "even"],
+    0.0,
+    "more where |f| is larger, shaded; or evenly of its sign's colour, so that the light is as much as the opacity",
+);
 pub(super) const DARK: SettingSpec = SettingSpec::colour(
     "background",
     [0.004, 0.005, 0.008],

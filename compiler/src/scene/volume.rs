@@ -24,6 +24,8 @@ pub const SCENE: Scene = Scene {
         space::GAMMA,
         space::JITTER,
         space::STRETCHES,
+        space::STEPS_BY,
+        space::EMISSION,
         camera::CAMERA,
         camera::PROJECTION,
         camera::YAW,

@@ -51,6 +51,10 @@ enum Part {
     Derivative,
     /// The integral of a function of space along a ray, from its origin and direction and both ends
     Integral,
+    /// The part of the light that comes through the function as an extinction: exp(-τ) with that integral τ
+    Transmittance,
+    /// The part that does not come through, 1 - exp(-τ) without cancellation
+    Opacity,
     /// The whole picture
     Scene,
 }
@@ -81,6 +85,8 @@ pub(super) fn run(arguments: &EmitArguments, console: &Console) -> Result<(), Fa
         Part::Gradient => EmitWhat::Gradient,
         Part::Derivative => EmitWhat::Derivative,
         Part::Integral => EmitWhat::Integral,
+        Part::Transmittance => EmitWhat::Transmittance,
+        Part::Opacity => EmitWhat::Opacity,
         Part::Scene => EmitWhat::Scene,
     };
     let index = source.picture(arguments.which, console)?;

@@ -126,7 +126,10 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
         (_, wanted) => wanted,
     };
     let tier = computer.tier(arguments.numbers.precision, wanted)?;
-    let mut scene = source.expect(source.program.scene_module(index, tier), console)?;
+    let mut scene = source.expect(
+        source.program.scene_module_with(index, &settings, tier),
+        console,
+    )?;
     mesh::furnish(&mut scene, &settings, arguments.settings.mesh.as_deref())?;
     let bytes = scene.pack_settings(&settings);
     frame.settings = &bytes;

@@ -137,7 +137,10 @@ impl Subject {
         tier: lower::Tier,
         console: &Console,
     ) -> Result<SceneModule, Failure> {
-        let made = self.source.program.scene_module(self.index, tier);
+        let made = self
+            .source
+            .program
+            .scene_module_with(self.index, &self.settings, tier);
         let mut scene = self.source.expect(made, console)?;
         mesh::furnish(&mut scene, &self.settings, self.mesh.as_deref())?;
         Ok(scene)

@@ -48,7 +48,7 @@ macro_rules! gallery {
     };
 }
 
-const GALLERY: [(&str, &str, &str); 66] = gallery![
+const GALLERY: [(&str, &str, &str); 68] = gallery![
     "charges",
     "confocal",
     "doyle-mcmullen",
@@ -74,6 +74,7 @@ const GALLERY: [(&str, &str, &str); 66] = gallery![
     "gyroid",
     "heart",
     "himmelblau",
+    "helix",
     "hologram",
     "interference",
     "joukowski",
@@ -101,6 +102,7 @@ const GALLERY: [(&str, &str, &str); 66] = gallery![
     "saddle",
     "schwarz-family",
     "schwarz-p",
+    "shadow",
     "sin-rings",
     "smooth-union",
     "sparks",
@@ -121,6 +123,7 @@ const LIBRARY: &str = concat!(
     include_str!("../../data/functions/library.txt"),
     include_str!("../../data/functions/shapes.txt"),
     include_str!("../../data/functions/noise.txt"),
+    include_str!("../../data/functions/light.txt"),
 );
 
 /// The formulas of the gallery.

@@ -94,6 +94,37 @@ fn integrals_are_emitted() {
     }
 }
 
+/// Transmittance and opacity along a ray in every shading language.
+#[test]
+fn transmittance_and_opacity_are_emitted() {
+    let program = compile("f(x, y, z) = exp(-2 y) + 1/(x^2 + z^2 + 1)")
+        .program
+        .unwrap();
+    for (what, name) in [
+        (EmitWhat::Transmittance, "f_transmittance"),
+        (EmitWhat::Opacity, "f_opacity"),
+    ] {
+        for target in [
+            Target::Wgsl,
+            Target::Glsl,
+            Target::Hlsl,
+            Target::Msl,
+            Target::Spirv,
+        ] {
+            let made = program.emit(0, what, target, Precision::Accurate);
+            let made = made.unwrap_or_else(|e| panic!("{name}: {e:?}"));
+            if target == Target::Wgsl {
+                let text = String::from_utf8(made).unwrap();
+                let signature = format!("fn {name}(o: vec3<f32>, d: vec3<f32>, a: f32, b: f32");
+                assert!(text.contains(&signature), "{text}");
+                // the opacity is the negative of an expm1
+                let negative = text.contains("return -(");
+                assert_eq!(negative, what == EmitWhat::Opacity, "{text}");
+            }
+        }
+    }
+}
+
 /// What has no closed form is named, and whether that is proven.
 #[test]
 fn refusals_name_the_part() {

@@ -1,6 +1,7 @@
 //! Pictures of programs on the software adapter.
 
 use pullback_compiler::lower::Precision;
+use pullback_compiler::{Picture as Shown, SceneModule};
 use pullback_runtime::{Frame, Gpu, Pipeline, Renderer, Size, View, fill_in_scale};
 use pullback_tests::accuracy::evaluators::suite_gpu;
 
@@ -93,6 +94,29 @@ fn rendered_mesh(
         .scene_module(0, Precision::Accurate)
         .expect("a scene");
     scene.mesh = mesh;
+    rendered_scene(gpu, &scene, picture, size, samples, (time, pipeline))
+}
+
+/// Linear light of each pixel of a scene with the settings of a picture.
+pub fn draw_scene(gpu: &Gpu, scene: &SceneModule, picture: &Shown, size: [u32; 2]) -> Vec<Rgb> {
+    linear(&rendered_scene(
+        gpu,
+        scene,
+        picture,
+        size,
+        1,
+        (0.0, Pipeline::Linear),
+    ))
+}
+
+fn rendered_scene(
+    gpu: &Gpu,
+    scene: &SceneModule,
+    picture: &Shown,
+    size: [u32; 2],
+    samples: u32,
+    (time, pipeline): (f64, Pipeline),
+) -> Vec<u8> {
     let view = View {
         center: [0.0; 2],
         height: 2.0,
@@ -113,7 +137,7 @@ fn rendered_mesh(
         pipeline,
     };
     let mut rows = Vec::new();
-    Renderer::new(gpu, &scene)
+    Renderer::new(gpu, scene)
         .and_then(|mut r| r.render(&frame, &mut rows))
         .expect("a picture");
     rows

@@ -4,6 +4,7 @@
 mod additive;
 mod camera;
 mod colour;
+mod columns;
 mod cutaway;
 mod drawing;
 mod extremes;

@@ -22,7 +22,7 @@ const ALONG_X: Camera = Camera {
     size: [9, 9],
 };
 
-const ASIDE: Camera = Camera {
+pub(super) const ASIDE: Camera = Camera {
     yaw: 32.0,
     pitch: 24.0,
     fov: 24.0,
@@ -32,16 +32,16 @@ const ASIDE: Camera = Camera {
 
 /// A cloud and its light.
 #[derive(Clone, Copy)]
-struct Case {
-    formula: &'static str,
-    density: fn(Vec3) -> f64,
-    absorption: Rgb,
-    scattering: Rgb,
-    g: f64,
-    light: Rgb,
-    ambient: Rgb,
+pub(super) struct Case {
+    pub(super) formula: &'static str,
+    pub(super) density: fn(Vec3) -> f64,
+    pub(super) absorption: Rgb,
+    pub(super) scattering: Rgb,
+    pub(super) g: f64,
+    pub(super) light: Rgb,
+    pub(super) ambient: Rgb,
     /// Degrees, yaw from that of the camera.
-    light_angles: [f64; 2],
+    pub(super) light_angles: [f64; 2],
 }
 
 const FOG: Case = Case {
@@ -65,7 +65,7 @@ fn phase_function(g: f64, cosine: f64) -> f64 {
 }
 
 /// The integral of f from a to b by Simpson's rule, halved until both halves agree with the whole.
-fn integral(f: &dyn Fn(f64) -> f64, a: f64, b: f64, tolerance: f64) -> f64 {
+pub(super) fn integral(f: &dyn Fn(f64) -> f64, a: f64, b: f64, tolerance: f64) -> f64 {
     let panels = 8;
     let width = (b - a) / f64::from(panels);
     (0..panels)
@@ -114,7 +114,7 @@ impl Case {
     }
 
     /// Radiance of each pixel as the scene draws it.
-    fn drawn(&self, gpu: &Gpu, camera: &Camera, more: &str) -> Vec<Rgb> {
+    pub(super) fn drawn(&self, gpu: &Gpu, camera: &Camera, more: &str) -> Vec<Rgb> {
         draw_linear(gpu, &self.source(camera, more), camera.size, 1)
             .into_iter()
             .map(|pixel| pixel.map(|c| c / EXPOSURE))
@@ -151,7 +151,7 @@ impl Case {
 
     /// Radiance of a ray in a channel:
     /// ∫ σ_s f (p E exp(-σ_t ∫ f to the light) + ambient) exp(-σ_t ∫ f to the eye) dt.
-    fn radiance(&self, camera: &Camera, ray: &Ray, k: usize) -> f64 {
+    pub(super) fn radiance(&self, camera: &Camera, ray: &Ray, k: usize) -> f64 {
         let Some([near, far]) = ray.cube(HALF) else {
             return 0.0;
         };
@@ -296,7 +296,7 @@ fn the_phase_function_sums_to_one() {
     }
 }
 
-const HAZE: Case = Case {
+pub(super) const HAZE: Case = Case {
     formula: "2 exp(-(x^2 + y^2 + z^2)/0.5)",
     density: |p| 2.0 * (-dot(p, p) / 0.5).exp(),
     absorption: [0.5, 1.0, 0.0],
@@ -307,7 +307,7 @@ const HAZE: Case = Case {
     light_angles: [70.0, 30.0],
 };
 
-const CASES: [Case; 4] = [
+pub(super) const CASES: [Case; 4] = [
     Case {
         light_angles: [70.0, 30.0],
         ambient: [0.1; 3],
@@ -330,7 +330,7 @@ const CASES: [Case; 4] = [
 ];
 
 /// Greatest error of a pixel, as a part of the brightest of its channel.
-fn worst(found: &[Rgb], wanted: &[Rgb]) -> f64 {
+pub(super) fn worst(found: &[Rgb], wanted: &[Rgb]) -> f64 {
     let mut worst = 0.0f64;
     for k in 0..3 {
         let brightest = wanted.iter().map(|p| p[k]).fold(0.0, f64::max);
@@ -356,7 +356,8 @@ fn scattered_light_converges_to_the_integral() {
             .collect();
         let errors = [[12, 4], [25, 8], [50, 16], [128, 32], [200, 64], [400, 128]].map(
             |[steps, light_steps]| {
-                let settings = format!("steps = {steps}, light_steps = {light_steps}, ");
+                let settings =
+                    format!("steps_by = samples, steps = {steps}, light_steps = {light_steps}, ");
                 worst(&case.drawn(&gpu, &ASIDE, &settings), &wanted)
             },
         );
@@ -364,7 +365,10 @@ fn scattered_light_converges_to_the_integral() {
         println!("| `{}` | {} |", case.formula, percent.join(" | "));
         assert!(errors[3] < 0.01, "{}: {errors:?}", case.formula);
         assert!(errors[5] < 0.002, "{}: {errors:?}", case.formula);
-        let even = worst(&case.drawn(&gpu, &ASIDE, "jitter = 0, "), &wanted);
+        let even = worst(
+            &case.drawn(&gpu, &ASIDE, "steps_by = samples, jitter = 0, "),
+            &wanted,
+        );
         assert!(even < 0.01, "{}: {even} without jitter", case.formula);
     }
 }

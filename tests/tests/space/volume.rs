@@ -7,7 +7,7 @@ use crate::camera::{Camera, Ray, Vec3, dot, unit};
 use crate::colour::{Rgb, encoded};
 use crate::drawing::{Picture, device, draw};
 
-const CAMERA: Camera = Camera {
+pub(super) const CAMERA: Camera = Camera {
     yaw: 32.0,
     pitch: 24.0,
     fov: 24.0,
@@ -21,14 +21,14 @@ const BLOCK: u32 = 6;
 const STEPS: u32 = 200;
 
 /// A function, its density and how extinction grows with it. The colour scale is 1.
-struct Case {
-    formula: &'static str,
+pub(super) struct Case {
+    pub(super) formula: &'static str,
     value: fn(Vec3) -> f64,
     power: f64,
     density: f64,
 }
 
-const CASES: [Case; 6] = [
+pub(super) const CASES: [Case; 6] = [
     Case {
         formula: "0.5",
         value: |_| 0.5,
@@ -67,11 +67,11 @@ const CASES: [Case; 6] = [
     },
 ];
 
-const POSITIVE: Rgb = [0.48, 0.4, 0.3];
-const NEGATIVE: Rgb = [0.3, 0.4, 0.48];
+pub(super) const POSITIVE: Rgb = [0.48, 0.4, 0.3];
+pub(super) const NEGATIVE: Rgb = [0.3, 0.4, 0.48];
 
 impl Case {
-    fn source(&self, steps: u32, more: &str) -> String {
+    pub(super) fn source(&self, steps: u32, more: &str) -> String {
         format!(
             "f(x, y, z) = {}\nshow volume(f) {{ color_scale = 1, power = {}, density = {}, core = 0, lighting = 0, \
              exposure = 1, tone = none, edge_width = 0, steps = {steps}, {more}, {} }}",
@@ -84,7 +84,7 @@ impl Case {
 
     /// Radiance and transmittance of a ray: dτ/dt = σ and dL/dt = c σ exp(-τ), integrated by Runge and Kutta's rule of
     /// order four with steps that are halved until they agree.
-    fn integrated(&self, ray: &Ray) -> (Rgb, f64) {
+    pub(super) fn integrated(&self, ray: &Ray) -> (Rgb, f64) {
         let Some([near, far]) = ray.cube(2.0) else {
             return ([0.0; 3], 1.0);
         };
