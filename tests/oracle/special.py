@@ -122,25 +122,37 @@ def weierstrass(tau):
     return by_differences(p)
 
 
-def eisenstein(factor, k):
-    """1 + factor Σ σ_k(n) q^n, by the sum itself."""
+def eisenstein_e2(tau):
+    """The sum itself."""
+    q = mp.exp(2j * mp.pi * tau)
+    total, n = mp.mpf(0), 1
+    while True:
+        term = n * q**n / (1 - q**n)
+        total += term
+        if abs(term) < mp.mpf(10) ** (-mp.mp.dps - 5) * max(1, abs(total)):
+            return 1 - 24 * total
+        n += 1
 
-    def form(tau):
-        q = mp.exp(2j * mp.pi * tau)
-        total, n = mp.mpf(0), 1
-        while True:
-            term = n**k * q**n / (1 - q**n)
-            total += term
-            if abs(term) < mp.mpf(10) ** (-mp.mp.dps - 5) * max(1, abs(total)):
-                return 1 + factor * total
-            n += 1
 
-    return form
+def theta_powers(tau):
+    """Fourth powers of theta functions, of which modular forms are polynomials (DLMF 23.6.2-4, 23.15.6)."""
+    q = mp.exp(1j * mp.pi * tau)
+    return tuple(mp.jtheta(k, 0, q) ** 4 for k in (2, 3, 4))
+
+
+def eisenstein_e4(tau):
+    a, b, c = theta_powers(tau)
+    return (a**2 + b**2 + c**2) / 2
+
+
+def eisenstein_e6(tau):
+    a, b, c = theta_powers(tau)
+    return (a + b) * (b + c) * (c - a) / 2
 
 
 def klein(tau):
-    e4, e6 = eisenstein(240, 3)(tau), eisenstein(-504, 5)(tau)
-    return e4**3 / (e4**3 - e6**2)
+    l = modular_lambda(tau)
+    return 4 * (1 - l + l * l) ** 3 / (27 * (l * (1 - l)) ** 2)
 
 
 def dedekind(tau):
@@ -216,8 +228,8 @@ def sections(rng):
         shown = f"complex({mp.nstr(mp.re(tau), 17)}, {mp.nstr(mp.im(tau), 17)})"
         yield word, f"f(z) = weierstrass_p(z, {shown})", weierstrass(tau), disc(1.6, 40, rng) + around(0.5, rng, small) + around(0, rng, (0.3, 1e-2))
         yield word + "_prime", f"f(z) = diff(weierstrass_p(z, {shown}), z)", weierstrass_slope(tau), disc(1.6, 20, rng) + around(0.5, rng, small)
-    for name, form in (("eisenstein_e2", eisenstein(-24, 1)), ("eisenstein_e4", eisenstein(240, 3)), ("eisenstein_e6", eisenstein(-504, 5)), ("klein_j", klein), ("dedekind_eta", dedekind), ("modular_lambda", modular_lambda)):
-        yield name, f"f(z) = {name}(z)", by_differences(form), half(40) + around(1j, rng, small) + around(0.5 + 0.8660254j, rng, small)
+    for name, form in (("eisenstein_e4", eisenstein_e4), ("eisenstein_e6", eisenstein_e6), ("eisenstein_e2", eisenstein_e2), ("klein_j", klein), ("dedekind_eta", dedekind), ("modular_lambda", modular_lambda)):
+        yield name, f"f(z) = {name}(z)", by_differences(form), half(8 if name == "eisenstein_e2" else 40) + around(1j, rng, small) + around(0.5 + 0.8660254j, rng, small)
 
 
 def weierstrass_slope(tau):
