@@ -18,6 +18,7 @@
 )]
 
 pub mod check;
+pub mod defined;
 pub mod derive;
 pub mod emit;
 pub mod eval;

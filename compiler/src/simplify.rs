@@ -16,7 +16,8 @@ impl Graph {
         let row = table::row(prim);
         let mut args: smallvec::SmallVec<[Id; 3]> = args.into();
         let any_complex = args.iter().any(|&a| self.ty(a) == Ty::Complex);
-        if any_complex && !row.typing.mixes_real_and_complex() {
+        let always = matches!(row.typing, table::Typing::Complex(_));
+        if always || any_complex && !row.typing.mixes_real_and_complex() {
             for arg in &mut args {
                 *arg = self.widen(*arg);
             }

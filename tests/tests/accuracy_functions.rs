@@ -5,7 +5,7 @@ use pullback_compiler::lower::Precision;
 use pullback_compiler::table::{Typing, rows};
 use pullback_tests::accuracy::bounds::{declared, violations};
 use pullback_tests::accuracy::evaluators::{Machine, is_reference_adapter, suite_gpu};
-use pullback_tests::accuracy::formulas::library;
+use pullback_tests::accuracy::formulas::{library, special};
 use pullback_tests::accuracy::measure::measure;
 use pullback_tests::accuracy::subjects::{Subject, subjects};
 use pullback_tests::accuracy::sweep::judged_by;
@@ -62,7 +62,8 @@ fn is_condition(typing: Typing) -> bool {
 
 #[test]
 fn every_function_has_references() {
-    let formulas: Vec<&str> = library().iter().map(|t| t.name).collect();
+    let formulas = library().into_iter().chain(special());
+    let formulas: Vec<&str> = formulas.map(|t| t.name).collect();
     let subjects = subjects();
     let mut bare = Vec::new();
     // what only derivatives make is judged as the derivative that it is

@@ -15,6 +15,7 @@ use super::scope::Scope;
 use super::symbols::Symbols;
 use super::variables::Frame;
 use super::{Value, library, named_constant};
+use crate::defined::Digits;
 use crate::ir::{Graph, Id, Op, Ty};
 use crate::stable::Rewrites;
 use crate::types::Type;
@@ -62,6 +63,8 @@ pub struct Builder<'a> {
     pub(super) rewrites: Rewrites,
     /// Whether something was rewritten before it was differentiated.
     pub(super) rewrote: bool,
+    /// The digits that definitions of the library are for.
+    pub(super) digits: Digits,
     program: &'a File,
 }
 
@@ -95,6 +98,7 @@ impl<'a> Builder<'a> {
             integrals: 0,
             rewrites: Rewrites::OFF,
             rewrote: false,
+            digits: Digits::Wide,
             constants: FxHashMap::default(),
             bounds: Bounds::default(),
             nesting: Nesting::default(),
@@ -114,6 +118,13 @@ impl<'a> Builder<'a> {
     #[must_use]
     pub fn with_rewrites(mut self, rewrites: Rewrites) -> Self {
         self.rewrites = rewrites;
+        self
+    }
+
+    /// The same, for a definition of the library that some digits are wanted of.
+    #[must_use]
+    pub fn for_digits(mut self, digits: Digits) -> Self {
+        self.digits = digits;
         self
     }
 

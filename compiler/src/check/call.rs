@@ -10,9 +10,13 @@ use super::names::{listed, signature};
 use super::scope::Scope;
 use super::suggest::quoted;
 use super::{Builder, Source, Value, builtins, calculus, library};
-use crate::ir::{Prim, Ty};
+use crate::defined::Digits;
+use crate::ir::{Id, Prim, Ty};
 use crate::table;
 use crate::types::Type;
+
+/// What the library writes `_tier(a, b)`: a where digits are those of binary32, else b.
+const TIER: &str = "_tier";
 
 impl<'a> Builder<'a> {
     pub(super) fn call(
@@ -48,7 +52,7 @@ impl<'a> Builder<'a> {
     pub(super) fn invoke(
         &mut self,
         name: &'a str,
-        values: Vec<Value>,
+        mut values: Vec<Value>,
         spans: &[Span],
         span: Span,
     ) -> Value {
@@ -57,6 +61,9 @@ impl<'a> Builder<'a> {
         }
         if let Some(function) = self.user_function(name) {
             return self.call_function(function, values, spans, span);
+        }
+        if name == TIER && self.source == Source::Library && values.len() == 2 {
+            return values.swap_remove(usize::from(self.digits == Digits::Wide));
         }
         if let Some(builtin) = builtins::by_name(name) {
             if !builtin.arity.contains(&values.len()) {
@@ -324,6 +331,17 @@ impl<'a> Builder<'a> {
             self.calls.insert(key, known);
         }
         value
+    }
+
+    /// The value of the definition of the library with this name that takes exactly these types.
+    pub fn defined(&mut self, name: &str, values: Vec<Value>) -> Option<Id> {
+        let types: Vec<Option<Type>> = values.iter().map(|v| v.ty(&self.graph)).collect();
+        let mut definitions = library::by_name(name)?.iter();
+        let function = definitions.find(|f| f.types == types)?;
+        match self.library_body(function, values, Span::default()) {
+            Value::Scalar(id) => Some(id),
+            _ => None,
+        }
     }
 
     /// Whether a component is known not to be a number.

@@ -41,6 +41,14 @@ const SOURCE: &str = concat!(
     include_str!("library/distance.pull"),
     include_str!("library/noise.pull"),
     include_str!("library/light.pull"),
+    include_str!("library/special/error.pull"),
+    include_str!("library/special/lambert.pull"),
+    include_str!("library/special/zeta.pull"),
+    include_str!("library/special/airy.pull"),
+    include_str!("library/special/elliptic.pull"),
+    include_str!("library/special/modular.pull"),
+    include_str!("library/special/gamma.pull"),
+    include_str!("library/special/dilogarithm.pull"),
 );
 
 /// Longest chain of definitions of the library that call each other.

@@ -24,7 +24,7 @@ pub use builder::{Builder, MAX_DEPTH, Source};
 pub use builtins::{Builtin, builtins};
 pub use calculus::MAX_ORDER;
 pub use calculus::{Operator, operators};
-pub use library::{LibraryFunction, library_functions};
+pub use library::{LibraryFunction, file as library_file, library_functions};
 pub use names::{MAX_CALL_DEPTH, check_names, free_variables, not_constant, signature};
 pub use nesting::{MAX_LOOP_NESTING, MAX_STEPS};
 pub use record::Record;

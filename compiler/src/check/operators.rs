@@ -168,7 +168,10 @@ impl<'a> Builder<'a> {
         let complex = ids.iter().any(|&id| self.graph.ty(id) == Ty::Complex);
         let boolean = ids.iter().any(|&id| self.graph.ty(id) == Ty::Bool);
         let accepts_complex = row.typing.mixes_real_and_complex()
-            || matches!(row.typing, crate::table::Typing::Analytic(_));
+            || matches!(
+                row.typing,
+                crate::table::Typing::Analytic(_) | crate::table::Typing::Complex(_)
+            );
         if boolean || (complex && !accepts_complex) {
             return self.mismatched(prim, args, span);
         }

@@ -145,6 +145,40 @@ pub enum Prim {
     Trigamma,
     /// The n-th derivative of digamma, 2 ≤ n ≤ 5.
     Polygamma(u8),
+    /// The n-th derivative of the Faddeeva function.
+    Faddeeva(u8),
+    /// Branch k of the Lambert W function, of (z, k).
+    LambertW,
+    /// The n-th derivative of the Riemann zeta function.
+    Zeta(u8),
+    /// The n-th derivative of the Dirichlet eta function.
+    DirichletEta(u8),
+    /// The n-th derivative of the Dirichlet beta function.
+    DirichletBeta(u8),
+    /// Principal branch of the logarithm of the gamma function.
+    Loggamma,
+    AiryAi,
+    AiryAiPrime,
+    AiryBi,
+    AiryBiPrime,
+    EllipticK,
+    EllipticE,
+    /// (K(m) - E(m))/m
+    EllipticD,
+    Dilogarithm,
+    /// The n-th derivative of the Eisenstein series of weight 2.
+    EisensteinE2(u8),
+    /// The same of weight 4.
+    EisensteinE4(u8),
+    /// The same of weight 6.
+    EisensteinE6(u8),
+    KleinJ,
+    DedekindEta,
+    ModularLambda,
+    /// The fourth power of the third theta function at z = 0, of τ.
+    Theta3Fourth,
+    /// The n-th derivative by z of the elliptic function of Weierstrass.
+    WeierstrassP(u8),
     /// `a^(b + c)` for a whole constant c, b + c not rounded.
     PowShift,
     AtanSlope,
@@ -187,7 +221,15 @@ impl Prim {
             | Self::SphericalJ(n)
             | Self::SphericalIScaled(n)
             | Self::Erfcx(n)
-            | Self::GaussMassMoment(n) => Some(n),
+            | Self::GaussMassMoment(n)
+            | Self::Faddeeva(n)
+            | Self::Zeta(n)
+            | Self::DirichletEta(n)
+            | Self::DirichletBeta(n)
+            | Self::EisensteinE2(n)
+            | Self::EisensteinE4(n)
+            | Self::EisensteinE6(n)
+            | Self::WeierstrassP(n) => Some(n),
             _ => None,
         }
     }
@@ -203,6 +245,14 @@ impl Prim {
             Self::SphericalIScaled(_) => Self::SphericalIScaled(n),
             Self::Erfcx(_) => Self::Erfcx(n),
             Self::GaussMassMoment(_) => Self::GaussMassMoment(n),
+            Self::Faddeeva(_) => Self::Faddeeva(n),
+            Self::Zeta(_) => Self::Zeta(n),
+            Self::DirichletEta(_) => Self::DirichletEta(n),
+            Self::DirichletBeta(_) => Self::DirichletBeta(n),
+            Self::EisensteinE2(_) => Self::EisensteinE2(n),
+            Self::EisensteinE4(_) => Self::EisensteinE4(n),
+            Self::EisensteinE6(_) => Self::EisensteinE6(n),
+            Self::WeierstrassP(_) => Self::WeierstrassP(n),
             other => other,
         }
     }

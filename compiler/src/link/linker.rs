@@ -52,6 +52,8 @@ pub struct Linker<'a> {
     by_name: FxHashMap<&'a str, Place>,
     importers: Vec<Importer>,
     done: FxHashMap<Place, Handle<Function>>,
+    /// Functions that were generated on demand, by name.
+    generated: FxHashMap<String, Handle<Function>>,
     active: Vec<Place>,
 }
 
@@ -83,6 +85,7 @@ impl<'a> Linker<'a> {
             by_name,
             importers,
             done: FxHashMap::default(),
+            generated: FxHashMap::default(),
             active: Vec::new(),
         }
     }
@@ -185,6 +188,17 @@ impl<'a> Linker<'a> {
     /// Adds a finished function.
     pub fn append(&mut self, function: Function) -> Handle<Function> {
         self.out.functions.append(function, Span::UNDEFINED)
+    }
+
+    /// The function that was generated and kept under this name.
+    #[must_use]
+    pub fn generated(&self, name: &str) -> Option<Handle<Function>> {
+        self.generated.get(name).copied()
+    }
+
+    /// Keeps a generated function, for others that call it.
+    pub fn keep(&mut self, name: String, function: Handle<Function>) {
+        self.generated.insert(name, function);
     }
 
     /// The global variable of this name, copied from the first source that has it.

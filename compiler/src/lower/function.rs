@@ -301,6 +301,17 @@ impl Lowering<'_, '_, '_> {
         Ok(self.body.call(function, arguments))
     }
 
+    /// Calls what is defined in the language.
+    fn defined(
+        &mut self,
+        prim: Prim,
+        complex: bool,
+        arguments: Vec<Handle<Expression>>,
+    ) -> Result<Handle<Expression>, LowerError> {
+        let function = super::defined::function(self.linker, prim, complex, self.precision)?;
+        Ok(self.body.call(function, arguments))
+    }
+
     fn apply(&mut self, prim: Prim, node: &Node) -> Result<Handle<Expression>, LowerError> {
         if prim == Prim::Mul
             && let Some(value) = self.scaled_power(node)?
@@ -334,6 +345,7 @@ impl Lowering<'_, '_, '_> {
                 args.extend(self.order(prim));
                 self.library(name, args.to_vec())
             }
+            Gpu::Defined => self.defined(prim, false, args.to_vec()),
             Gpu::Structural => match prim {
                 Prim::Select => Ok(self.select(&args)),
                 Prim::PowInt(n) => {
@@ -448,6 +460,9 @@ impl Lowering<'_, '_, '_> {
             }
             _ => {
                 let row = table::row(prim);
+                if row.is_defined(true) {
+                    return self.defined(prim, true, args.to_vec());
+                }
                 if row.gpu_complex.is_empty() {
                     return Err(LowerError::NoForm(row.usage));
                 }

@@ -6,7 +6,7 @@
 use super::cardinal::{exprel_partial, horner};
 use super::derivative::{call, plus, reciprocal, scaled};
 use super::{Derivative, Gpu, Row, Typing, Weight};
-use crate::ir::{Graph, Id, Op, Prim};
+use crate::ir::{Graph, Id, Op, Prim, Ty};
 use crate::reference::{erf, rational, real};
 
 /// The last member of the families of quotients and of erfcx that there is a function for.
@@ -135,46 +135,55 @@ fn errors() -> [Row; 6] {
         gpu_complex: "",
         cost: weight(cost),
     };
+    let analytic = |row: Row| Row {
+        typing: Typing::Analytic(1),
+        gpu_complex: super::DEFINED,
+        cost: Weight {
+            complex: 800,
+            ..row.cost
+        },
+        ..row
+    };
     [
-        Row {
+        analytic(Row {
             names: &["erf"],
             ..one(
                 Prim::Erf,
                 "erf",
-                "erf(x)",
-                "error function, 2/√π times the integral of exp(-u²) from 0 to x",
+                "erf(a)",
+                "error function, 2/√π times the integral of exp(-u²) from 0 to a",
                 |a: &[f64]| erf::erf(a[0]),
                 |g, args, _, _| bell(g, std::f64::consts::FRAC_2_SQRT_PI, args[0]),
                 Gpu::Library("real_erf", None),
                 24,
             )
-        },
-        Row {
+        }),
+        analytic(Row {
             names: &["erfc"],
             ..one(
                 Prim::Erfc,
                 "erfc",
-                "erfc(x)",
-                "1 - erf(x), with all digits where it is small",
+                "erfc(a)",
+                "1 - erf(a), with all digits where it is small",
                 |a: &[f64]| erf::erfc(a[0]),
                 |g, args, _, _| bell(g, -std::f64::consts::FRAC_2_SQRT_PI, args[0]),
                 Gpu::Library("real_erfc", None),
                 30,
             )
-        },
-        Row {
+        }),
+        analytic(Row {
             names: &["erfcx"],
             ..one(
                 Prim::Erfcx(0),
                 "erfcx",
-                "erfcx(x)",
-                "exp(x²) erfc(x), which does not underflow",
+                "erfcx(a)",
+                "exp(a²) erfc(a), which does not underflow",
                 |a: &[f64]| erf::erfcx(0, a[0]),
                 erfcx_partial,
                 Gpu::Family("real_erfcx"),
                 24,
             )
-        },
+        }),
         one(
             Prim::Gauss,
             "gauss",
@@ -461,6 +470,12 @@ fn finite_sum_slope(g: &mut Graph, a: Id, n: u8) -> Id {
 
 /// c e^{-x²}
 fn bell(g: &mut Graph, c: f64, x: Id) -> Id {
+    if g.ty(x) == Ty::Complex {
+        let square = g.apply(Prim::PowInt(2), &[x]);
+        let exponent = g.neg(square);
+        let value = call(g, Prim::Exp, exponent);
+        return scaled(g, c, value);
+    }
     let gauss = call(g, Prim::Gauss, x);
     scaled(g, c, gauss)
 }

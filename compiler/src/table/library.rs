@@ -73,7 +73,7 @@ const WRITTEN: &[(&str, Meaning)] = &[
 /// The meaning of a library function that lowering calls, or of the one of its name in another format.
 #[must_use]
 pub fn meaning(name: &str) -> Option<Meaning> {
-    static INDEX: OnceLock<FxHashMap<&'static str, Meaning>> = OnceLock::new();
+    static INDEX: OnceLock<FxHashMap<String, Meaning>> = OnceLock::new();
     let index = INDEX.get_or_init(|| {
         let mut index = FxHashMap::default();
         for row in rows() {
@@ -82,14 +82,19 @@ pub fn meaning(name: &str) -> Option<Meaning> {
                     Some(_) => Meaning::Family(row.prim),
                     None => Meaning::Operation(row.prim),
                 };
-                index.insert(name, meaning);
+                if name != super::DEFINED {
+                    index.insert(name.to_owned(), meaning);
+                }
+            }
+            for (prim, name) in crate::defined::shader_names(row) {
+                index.insert(name, Meaning::Operation(prim));
             }
             let pair = pair(row.prim).filter(|pair| pair.place == 0);
             for (pair, name) in pair.iter().flat_map(|p| [(p, p.gpu), (p, p.gpu_complex)]) {
-                index.insert(name, Meaning::Both(row.prim, pair.partner));
+                index.insert(name.to_owned(), Meaning::Both(row.prim, pair.partner));
             }
         }
-        index.extend(WRITTEN.iter().copied());
+        index.extend(WRITTEN.iter().map(|&(name, m)| (name.to_owned(), m)));
         index.remove("");
         index
     });

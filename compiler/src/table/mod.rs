@@ -8,6 +8,7 @@ mod bounds;
 mod cardinal;
 mod comparison;
 mod complex;
+mod defined;
 mod derivative;
 mod exponential;
 mod hyperbolic;
@@ -61,11 +62,15 @@ pub struct Row {
     pub derivative: Derivative,
     /// What a shader does on reals.
     pub gpu: Gpu,
-    /// Name of the shader function on complex numbers; empty where the lowering writes it out or has none.
+    /// Name of the shader function on complex numbers; empty where the lowering writes it out or has none, and
+    /// [`DEFINED`] where there is a definition in the language.
     pub gpu_complex: &'static str,
     /// Weights of the cost count.
     pub cost: Weight,
 }
+
+/// Stands for the shader function on complex numbers where there is a definition in the language, see [`crate::defined`].
+pub const DEFINED: &str = "defined";
 
 /// Cost of one operation; one addition of reals is 1.
 #[derive(Clone, Copy, Debug)]
@@ -103,6 +108,8 @@ pub enum Gpu {
     Library(&'static str, Option<MathFunction>),
     /// A function of the shader math library for all of a family, whose last operand says which it is.
     Family(&'static str),
+    /// The definition of its mnemonic in the language, see [`crate::defined`].
+    Defined,
     /// The lowering writes it out.
     Structural,
 }
@@ -164,6 +171,16 @@ impl Row {
             .unwrap_or_else(|| written.trim_matches(is_operand))
     }
 
+    /// Whether its value on reals, or on complex numbers, is a definition in the language.
+    #[must_use]
+    pub fn is_defined(&self, complex: bool) -> bool {
+        if complex {
+            self.gpu_complex == DEFINED
+        } else {
+            matches!(self.gpu, Gpu::Defined)
+        }
+    }
+
     /// Whether there is a way to write it; others only derivatives make.
     #[must_use]
     pub fn is_written(&self) -> bool {
@@ -192,6 +209,7 @@ pub fn rows() -> &'static [Row] {
         rows.extend(rounding::rows());
         rows.extend(comparison::rows());
         rows.extend(special::rows());
+        rows.extend(defined::rows());
         rows.extend(slope::rows());
         rows
     })
@@ -212,18 +230,20 @@ pub fn row(prim: Prim) -> &'static Row {
 /// How an operation is differentiated: as its row says, and of a family not beyond its last member.
 #[must_use]
 pub fn derivative(prim: Prim) -> Derivative {
-    if prim.order().is_some_and(|n| n >= last_order(prim)) {
+    if prim.order().is_some_and(|n| n >= last_order(prim)) && !defined::is_closed(prim) {
         return Derivative::Missing;
     }
     row(prim).derivative
 }
 
 /// The last member of a family that there is a function for.
-fn last_order(prim: Prim) -> u8 {
+pub(crate) fn last_order(prim: Prim) -> u8 {
     match prim {
         Prim::Polygamma(_) => MAX_POLYGAMMA,
+        Prim::Erfcx(_) => integral::MAX_MOMENT,
         Prim::SphericalJ(_) | Prim::SphericalIScaled(_) => MAX_SPHERICAL,
         Prim::GaussMassMoment(_) => integral::MAX_MASS_MOMENT,
+        _ if row(prim).is_defined(true) => defined::last_order(prim),
         _ => integral::MAX_MOMENT,
     }
 }
@@ -298,6 +318,6 @@ mod tests {
             .iter()
             .flat_map(named)
             .chain(written)
-            .filter(|name| !name.is_empty())
+            .filter(|name| !name.is_empty() && *name != DEFINED)
     }
 }

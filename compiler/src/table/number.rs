@@ -17,7 +17,7 @@ pub enum Number {
 }
 
 impl Number {
-    fn widened(self) -> Option<Complex> {
+    pub(crate) fn widened(self) -> Option<Complex> {
         match self {
             Self::Real(re) => Some(complex(re, 0.0)),
             Self::Complex(z) => Some(z),
@@ -37,6 +37,10 @@ impl Number {
 pub(super) fn evaluate(row: &Row, prim: Prim, operands: &[Number]) -> Option<Number> {
     if let Some(value) = structural(prim, operands) {
         return Some(value);
+    }
+    if row.is_defined(false) || row.is_defined(true) && operands.iter().any(|v| v.real().is_none())
+    {
+        return crate::defined::value(prim, operands);
     }
     if let Some(reals) = operands
         .iter()

@@ -9,6 +9,8 @@ pub enum Typing {
     Arithmetic(usize),
     /// Reals to a real, complex numbers to a complex number.
     Analytic(usize),
+    /// Reals and complex numbers to a complex number; reals count as complex.
+    Complex(usize),
     /// Reals to a real.
     Real(usize),
     /// A real or complex number to a real.
@@ -30,7 +32,11 @@ impl Typing {
     #[must_use]
     pub fn arity(self) -> usize {
         match self {
-            Self::Arithmetic(n) | Self::Analytic(n) | Self::Real(n) | Self::Logic(n) => n,
+            Self::Arithmetic(n)
+            | Self::Analytic(n)
+            | Self::Complex(n)
+            | Self::Real(n)
+            | Self::Logic(n) => n,
             Self::Part => 1,
             Self::MakeComplex | Self::Order | Self::Equality => 2,
             Self::Select => 3,
@@ -51,6 +57,7 @@ impl Typing {
             }
             Self::Analytic(_) if all(Ty::Real) => Some(Ty::Real),
             Self::Analytic(_) if all(Ty::Complex) => Some(Ty::Complex),
+            Self::Complex(_) if all(Ty::Complex) => Some(Ty::Complex),
             Self::Real(_) if all(Ty::Real) => Some(Ty::Real),
             Self::Part if numeric => Some(Ty::Real),
             Self::MakeComplex if all(Ty::Real) => Some(Ty::Complex),

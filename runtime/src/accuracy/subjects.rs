@@ -75,7 +75,8 @@ fn forms(row: &'static Row, domain: Domain) -> Vec<(&'static str, String, usize)
         ("z", "complex(a, b)")
     };
     let on_reals = domain == Domain::Real;
-    if !row.is_written() {
+    // what is defined in the language is judged by formulas
+    if !row.is_written() || row.is_defined(!on_reals) {
         return Vec::new();
     }
     match (row.prim, row.names, arity) {

@@ -96,6 +96,7 @@ fn entries() -> Vec<Entry> {
 fn types(row: &table::Row) -> &'static str {
     match row.typing {
         Typing::Arithmetic(_) | Typing::Analytic(_) => "real, complex",
+        Typing::Complex(_) => "real, complex → complex",
         Typing::Real(_) => "real",
         Typing::Part => "real, complex → real",
         Typing::MakeComplex => "real → complex",

@@ -126,6 +126,8 @@ const LIBRARY: &str = concat!(
     include_str!("../../data/functions/light.txt"),
 );
 
+const SPECIAL: &str = include_str!("../../data/functions/special.txt");
+
 /// The formulas of the gallery.
 #[must_use]
 pub fn gallery() -> Vec<Table> {
@@ -146,8 +148,19 @@ pub fn gallery() -> Vec<Table> {
 /// Formulas that cover the library of the language, and the functions on vectors.
 #[must_use]
 pub fn library() -> Vec<Table> {
+    sections(LIBRARY)
+}
+
+/// Special functions that are defined in the language. Their scale is the goal: 8 u of the norm of a value, 32 u of that of a
+/// derivative, and what a change of the argument by u makes.
+#[must_use]
+pub fn special() -> Vec<Table> {
+    sections(SPECIAL)
+}
+
+fn sections(text: &'static str) -> Vec<Table> {
     let mut tables: Vec<Table> = Vec::new();
-    for line in LIBRARY.lines() {
+    for line in text.lines() {
         match (line.strip_prefix("# "), tables.last_mut()) {
             (Some(title), _) if title.contains(" | ") => {
                 let (name, source) = title.split_once(" | ").unwrap_or((title, ""));

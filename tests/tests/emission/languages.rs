@@ -70,13 +70,13 @@ fn functions() -> Vec<String> {
             continue;
         }
         let arguments = |names: [&str; 3]| names[..row.typing.arity().min(3)].join(", ");
-        if row.real.is_some() {
+        if row.real.is_some() || row.is_defined(false) {
             out.push(format!(
                 "f(x, y) = {name}({}) + y",
                 arguments(["x", "y", "x + y"])
             ));
         }
-        if row.complex.is_some() {
+        if row.complex.is_some() || row.is_defined(true) {
             out.push(format!(
                 "f(z) = {name}({})",
                 arguments(["z", "z^2", "z + 1"])
