@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Function, Module, ScalarKind, Statement, TypeInner, VectorSize};
 use pullback_compiler::link::{Linker, Provider, Sources, is_stub};
-use pullback_compiler::lower::{LowerError, Tier};
+use pullback_compiler::lower::{LowerError, Precision, Tier};
 use pullback_compiler::scene::{ENTRIES, Scene, SettingKind, Space, TABLE, scene, scenes};
 use pullback_tests::corpus::{Source, files, read, root};
 use pullback_tests::units::{FIELD_STUBS, copies, evaluations, finite_differences};
@@ -47,8 +47,10 @@ fn every_template_is_valid_by_itself() {
 #[test]
 fn the_libraries_are_valid_and_whole() {
     let sources = Sources::get(Tier::default());
+    let fast = Sources::get(Precision::Fast.into());
     for (name, module, folder) in [
         ("the number library", sources.math, "math"),
+        ("the number library of `fast`", fast.math, "fast"),
         ("the drawing library", sources.shared, "shared"),
     ] {
         validate(name, module);

@@ -1,8 +1,8 @@
 // bands: a real function of the plane as stripes of flat colours, like a map of heights.
 //
 // Stripe k is where k ≤ (f - start) / period < k + 1; its colour is the one with the number k mod count. Each sample is
-// the exact mean of the stripes under a Gaussian footprint, which is given in pixels, in linear light, for f that is linear
-// across it: a sum of one step for each edge. Where all colours lie under the footprint it is their mean.
+// the mean of the stripes under a Gaussian footprint, which is given in pixels, in linear light, for f that is linear across it: a sum
+// of one step for each edge, or a Fourier series. Where all colours lie under the footprint it is their mean.
 //
 // An undefined value (NaN) is a quiet grey hatch, an infinity the mean colour with a hatch of the other slope. A constant is
 // the colour of its stripe.
@@ -62,15 +62,16 @@ fn key_label(key: Key, place: f32, value: f32, anchor: f32) -> bool { return fal
 fn label_colour(colour: vec3f) -> vec3f { return vec3f(); }
 fn with_key_border(colour: vec3f, key: Key) -> vec3f { return vec3f(); }
 
-// Steps further than this many standard deviations away are taken as complete: they are to 1.1e-4, which is a third of a step
-// of 8 bits where a white stripe lies beside a black one, the worst that there is.
-const REACH: f32 = 3.7;
+// Errors are stated in linear light where 0 and 1 are the components of the colours; together they stay below 2.5e-4, half a
+// step of 8 bits of the darkest tones.
+// Steps further than this many standard deviations away are taken as complete, which they are to 4.8e-5 on either side.
+const REACH: f32 = 3.9;
 // From this standard deviation on the Fourier series of a cycle of four stripes is taken, up to its third harmonic: what is
-// left is below 2/(5π) exp(-2π² 5² 0.48²/4²) = 1.1e-4.
-const SMOOTH: f32 = 0.48;
+// left is below 2/(5π) exp(-2π² 5² 0.5²/4²) = 5.7e-5.
+const SMOOTH: f32 = 0.5;
 // Share of the whole cycle that a standard deviation must be for the mean of all colours: the first harmonic of the stripes
-// is then below 2/π exp(-2π² 0.65²) = 1.5e-4.
-const UNRESOLVED: f32 = 0.65;
+// is then below 2/π exp(-2π² 0.7²) = 4.1e-5.
+const UNRESOLVED: f32 = 0.7;
 
 fn colour_entry(k: u32) -> vec3f {
     return settings.colours[k].rgb;

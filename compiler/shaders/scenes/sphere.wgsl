@@ -90,6 +90,7 @@ struct Key {
 }
 
 fn is_finite(x: f32) -> bool { return false; }
+fn is_moderate(squared: f32) -> bool { return false; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
 fn sample_window() -> f32 { return 0.0; }
 fn undrawn_colour(value: vec2f, pixel: vec2f) -> vec3f { return vec3f(); }
@@ -256,12 +257,14 @@ fn style() -> PhaseStyle {
 }
 
 fn colour_of(jet: Jet, pixel: vec2f) -> vec3f {
-    if !(is_finite(jet.value.x) & is_finite(jet.value.y)) {
-        return undrawn_colour(jet.value, pixel);
-    }
-    let bits = (bitcast<u32>(jet.value.x) | bitcast<u32>(jet.value.y)) & 0x7fffffffu;
-    if bits == 0u {
-        return vec3f();
+    if !is_moderate(dot(jet.value, jet.value)) {
+        if !(is_finite(jet.value.x) & is_finite(jet.value.y)) {
+            return undrawn_colour(jet.value, pixel);
+        }
+        let bits = (bitcast<u32>(jet.value.x) | bitcast<u32>(jet.value.y)) & 0x7fffffffu;
+        if bits == 0u {
+            return vec3f();
+        }
     }
     let polar = polar_from_jet(jet);
     let colour = domain_colour(polar, style());

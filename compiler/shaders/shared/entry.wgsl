@@ -77,8 +77,8 @@ fn encoded(sum: vec4f, pixel: vec2u) -> vec4f {
 
 // The displayable colour of a pixel of this tile.
 fn encoded_pixel(local: vec2u) -> vec4f {
-    let corner = vec2f(local) + view.tile;
-    return encoded(pixel_sum(corner), local + vec2u(view.tile));
+    let pixel = local + vec2u(view.tile);
+    return encoded(pixel_sum(vec2f(pixel)), pixel);
 }
 
 // One triangle that covers the target.

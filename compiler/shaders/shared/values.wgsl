@@ -65,8 +65,13 @@ fn coarse_mean_colour(palette: u32, x: f32, r: f32) -> vec3f {
 
 // Coverage by lines at the integers of u, `per_pixel` to a pixel and `apart` = 1/`per_pixel` pixels from one another.
 fn level_lines(u: f32, per_pixel: f32, apart: f32, width: f32) -> f32 {
+    let away = abs(offset_from_integer(u)) * apart;
+    if (apart > max(width / DENSEST, width + sample_window())) & (abs(u) < 4194304.0) {
+        // none is dimmed, and no sample sees two
+        return coverage_of_line(away, width);
+    }
     let dimming = min(DENSEST / max(width, 1e-20) * apart, 1.0);
-    let covered = coverage_of_lines(abs(offset_from_integer(u)) * apart, apart, per_pixel, width);
+    let covered = coverage_of_lines(away, apart, per_pixel, width);
     // past 2²² spacings f32 no longer resolves the place between two lines
     return select(covered, min(per_pixel * width, 1.0), abs(u) > 4194304.0) * dimming;
 }

@@ -109,7 +109,10 @@ impl Numbers {
             Op::Compare(..) | Op::And | Op::Or | Op::Xor | Op::Not | Op::Select => {}
             Op::Convert(..) | Op::BitsOfNearest | Op::NumberOfBits | Op::Index => {}
             _ => {
-                self.fresh(inst.d);
+                // where an instruction has no result, its slot is that of a constant
+                if inst.op == Op::Store || !inst.d.is_uniform() {
+                    self.fresh(inst.d);
+                }
                 return true;
             }
         }
