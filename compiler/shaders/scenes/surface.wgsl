@@ -255,9 +255,9 @@ fn march(path: Path) -> Hit {
     return NO_HIT;
 }
 
-// Whether between two values with their slopes there is plainly nothing, as in most steps: all is defined, and neither the
-// value nor the slope changes its sign. Positive are the bits from 1 to those of infinity; compilers may assume that there
-// is no NaN.
+// Whether between two values with their slopes there is plainly nothing, as in most steps: all is defined, and neither
+// the value nor the slope changes its sign. Positive are the bits from 1 to those of infinity; compilers may assume that
+// there is no NaN.
 fn is_plain(near: vec2f, far: vec2f) -> bool {
     return (bitcast<u32>(near.x * far.x) - 1u < 0x7f800000u) & (near.y * far.y > 0.0);
 }

@@ -35,8 +35,8 @@ struct March {
     later: Probe,     // the end of the step, where `split`
     split: bool,
     band: i32,        // number of levels at or below f at `near`
-    floor: f32,       // while it walks, u between the levels around `near`: from `floor` to below `ceiling`; else nothing
-    ceiling: f32,
+    floor: f32,       // while it walks, u between the levels around `near` is from this to below `ceiling`
+    ceiling: f32,     // while it searches, this is below `floor`
     lost: bool,       // while it walks, whether f is undefined at `near`
     k: f32,           // steps taken
     count: f32,       // steps in all
@@ -390,7 +390,7 @@ fn root_on(before: March, probe: Probe, family: Family) -> March {
     m.rounds++;
     // it is slow where neither the bracket has become half as wide nor its nearer end a quarter as far from the level
     m.t = root_guess(m, m.high.t - m.low.t <= 0.5 * width || away(m, probe) <= 0.25 * least);
-    // Both ends are as near as rays are resolved; Newton's step from the nearer one places the level within the bracket.
+    // Both ends are as near as rays are resolved; Newton's step from the nearer one places the level between them.
     if m.high.t - m.low.t > 8.0 * march_tolerance(m) && m.rounds < 48u {
         return m;
     }

@@ -12,8 +12,8 @@ fn is_finite(x: f32) -> bool {
     return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
 }
 
-// Whether a sum of squares is between 2^-90 and 2^100: then no square that counts in it has overflowed or underflowed. One
-// comparison of integers, false for 0, infinity and NaN, too.
+// Whether a sum of squares is between 2^-90 and 2^100: then no square that counts in it has overflowed or underflowed.
+// One comparison of integers, false for 0, infinity and NaN, too.
 fn is_moderate(square: f32) -> bool {
     return (bitcast<u32>(square) - 0x12800000u) < 0x5f000000u;
 }

@@ -40,9 +40,10 @@ fn tilt_of(sight: Sight, n: vec3f) -> f32 {
     return select(across, select(1e-6, -1e-6, across < 0.0), abs(across) < 1e-6);
 }
 
-// Pixels per unit of each coordinate on the plane with normal n at distance t: 1 over `screen_rate` of the unit vectors.
-// Of these, |h|² is 1 - 2 n d/(n·d) + (d/(n·d))², by components, and what is seen of it lacks (R·h)² along the view; the
-// difference does not cancel, because h is at right angles to the ray. Of no use for a coordinate that is constant there.
+// Pixels per unit of each coordinate on the plane with normal n at distance t: 1 over `screen_rate` of the unit
+// vectors. Of these, |h|² is 1 - 2 n d/(n·d) + (d/(n·d))², by components, and what is seen of it lacks the square along
+// the view; the difference does not cancel, because h is at right angles to the ray. Of no use for a coordinate that is
+// constant there.
 fn axis_spread(sight: Sight, t: f32, n: vec3f) -> vec3f {
     let lean = sight.ray.direction / tilt_of(sight, n);
     let ahead = sight.forward - lean * dot(n, sight.forward);
@@ -123,9 +124,9 @@ fn coordinate_lines(sight: Sight, t: f32, n: vec3f, spacing: f32, width: f32) ->
     return covered;
 }
 
-// Where coordinates are 0 on a plane: colour of the axis along the nearest such line, and coverage; of two that cover as much
-// the first. x is red, y is green, z is blue; on a plane across an axis, the line where one of the other two coordinates is
-// 0 is along the third.
+// Where coordinates are 0 on a plane: colour of the axis along the nearest such line, and coverage; of two that cover as
+// much the first. x is red, y is green, z is blue; on a plane across an axis, the line where one of the other two
+// coordinates is 0 is along the third.
 fn axis_lines(sight: Sight, t: f32, n: vec3f, width: f32) -> vec4f {
     let p = sight.ray.origin + t * sight.ray.direction;
     let window = sample_window();
@@ -133,7 +134,8 @@ fn axis_lines(sight: Sight, t: f32, n: vec3f, width: f32) -> vec4f {
     let within = vec3f(0.5 * abs(width - window));
     let away = select(vec3f(1e9), max(abs(p) * axis_spread(sight, t, n), within), axes_across(n));
     let nearest = min(away.x, min(away.y, away.z));
-    let zero = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), away.y <= nearest), vec3f(1.0, 0.0, 0.0), away.x <= nearest);
+    let not_x = select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), away.y <= nearest);
+    let zero = select(not_x, vec3f(1.0, 0.0, 0.0), away.x <= nearest);
     let along = abs(cross(n, zero));
     let colour = along.x * vec3f(0.55, 0.03, 0.02) + along.y * vec3f(0.02, 0.30, 0.03) + along.z * vec3f(0.02, 0.06, 0.55);
     return vec4f(colour, line_coverage(min(nearest, 1e9), width, window));
