@@ -65,7 +65,9 @@ impl Plans {
             for callee in calls(&function.body) {
                 let callee = plans.0[callee.index()];
                 if callee.written_out {
-                    plan.weight = plan.weight.saturating_add(callee.weight);
+                    // words are shared where functions that have them are written out, and nowhere else
+                    let weight = if callee.word { 1 } else { callee.weight };
+                    plan.weight = plan.weight.saturating_add(weight);
                     plan.depth = plan.depth.max(callee.depth + 1);
                 }
             }
