@@ -3,7 +3,7 @@
 
 A line `= lower upper integrand` begins a case, written in the language by t, x and y; each line below it has x and y
 (numbers that binary32 holds), the integral, and that of |f|, from the lesser end to the greater. mpmath.quad of the
-integrand itself, cut in powers of 4 around the marks, and in units where it turns.
+integrand itself, cut in powers of 4 around the marks.
 
     python3 tests/oracle/integrals_to_infinity.py
 """
@@ -17,7 +17,7 @@ from mpmath import inf, mp, mpf
 mp.dps = 60
 OUT = Path(__file__).resolve().parent.parent / "data" / "integrals" / "to_infinity.tsv"
 
-POINTS = [(0.5, 1.5), (-0.75, 0.25), (3.0, 0.25), (0.0, 4.0), (-2.5, 2.0), (0.015625, 1.0)]
+POINTS = [(0.5, 1.5), (-0.75, 0.25), (0.0, 4.0), (-2.5, 2.0), (0.015625, 1.0)]
 
 # lower end, upper end, integrand, marks around which it is cut
 CASES = [
@@ -57,7 +57,7 @@ CASES = [
     ("x", "inf", "1/(4 + t)^2", "x"),
     ("x", "inf", "1/(4 + t)^(3/2)", "x"),
     ("x", "inf", "t/(4 + t)^(7/2)", "x 0"),
-    ("x", "inf", "1/(4 + t)^(1 + y)", "x"),
+    ("x", "inf", "1/(4 + t)^(2 + y)", "x"),
     ("-inf", "x", "1/(4 - t)^3", "x"),
     ("x", "inf", "1/cosh(y*t)", "x 0"),
     ("-inf", "inf", "1/cosh(t - x)^2", "x"),
@@ -106,10 +106,7 @@ def integral(case, point):
     for mark in marks.split():
         m = eval(mark, known)
         places.add(m)
-        # what turns is cut at every other unit, until it has fallen to nothing; what falls as a power, far out
-        if "sin" in text or "cos(" in text:
-            places.update(m + 2 * k for k in range(-40, 80))
-        for k in range(-3, 5 if "exp" in text or "cosh" in text else 40):
+        for k in range(-3, 5):
             places.update((m - mpf(4) ** k, m + mpf(4) ** k))
     cuts = [low] + sorted(p for p in places if low < p < high) + [high]
     value = mp.quad(f, cuts)

@@ -110,7 +110,7 @@ impl Integrator<'_> {
         let speed = self.g.div(phase.slope, rate);
         let shift = scale(self.g, 0.5, speed);
         let zero = self.g.real(0.0);
-        let parts = [0, 1].map(|k| self.from_end(&ends[k], shift, prim, phase.ends[k]));
+        let parts = [0, 1].map(|k| self.end_part(&ends[k], shift, prim, phase.ends[k]));
         let sum = self.g.sub(parts[0], parts[1]);
         let whole = self.whole_wave(q, shift, prim, phase);
         let inside = ends.each_ref().map(|end| {
@@ -126,7 +126,7 @@ impl Integrator<'_> {
     }
 
     /// S(x) times √a.
-    fn from_end(&mut self, end: &End, shift: Id, prim: Prim, angle: Id) -> Id {
+    fn end_part(&mut self, end: &End, shift: Id, prim: Prim, angle: Id) -> Id {
         let zero = self.g.real(0.0);
         let distance = call(self.g, Prim::Abs, end.place);
         let [re, im] = self.faddeeva(shift, distance);
@@ -173,7 +173,7 @@ impl Integrator<'_> {
             let (prim, phase) = wave.wave.unwrap_or((Prim::Cos, constant));
             let speed = self.g.div(phase.slope, rate);
             let shift = scale(self.g, 0.5, speed);
-            let part = self.from_end(&end, shift, prim, phase.mid);
+            let part = self.end_part(&end, shift, prim, phase.mid);
             let whole = self.whole_wave(&q, shift, prim, phase);
             let whole = if_less(self.g, end.place, zero, whole, zero);
             let value = add(self.g, part, whole);

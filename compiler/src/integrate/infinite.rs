@@ -57,11 +57,11 @@ impl Integrator<'_> {
         let (zero, rate) = (self.g.real(0.0), self.g.real(side));
         let begin = super::arithmetic::scale(self.g, side, begin);
         self.path = Path::of_lines(self.g, &[(leaf, zero, rate)], [begin, begin]);
-        self.from_here(root)
+        self.onwards(root)
     }
 
     /// The integral from the place where the empty path is to infinity.
-    fn from_here(&mut self, root: Id) -> Result<Id, Problem> {
+    fn onwards(&mut self, root: Id) -> Result<Id, Problem> {
         let cuts = self.cuts(root)?;
         if cuts.is_empty() {
             return self.tail(root);
@@ -190,7 +190,7 @@ impl Integrator<'_> {
             return Err(self.problem(result, Reason::Diverges("a constant does not fall")));
         }
         let here = self.path.clone();
-        let integral = self.from_here(term);
+        let integral = self.onwards(term);
         self.path = here;
         let integral = integral?;
         let leaf = self.g.new_state(it.binder, crate::ir::Ty::Real);

@@ -56,7 +56,7 @@ fn integrals_to_infinity() {
         }
     }
     println!("{count} integrals to infinity, worst {worst:?}");
-    assert!(count > 500 && wrong.is_empty(), "{wrong}");
+    assert!(count > 450 && wrong.is_empty(), "{wrong}");
 }
 
 /// Each integral, the part that is named, and a part of the reason.
