@@ -1,8 +1,9 @@
 // bands: a real function of the plane as stripes of flat colours, like a map of heights.
 //
 // Stripe k is where k ≤ (f - start) / period < k + 1; its colour is the one with the number k mod count. Each sample is
-// the mean of the stripes under a Gaussian footprint, which is given in pixels, in linear light, for f that is linear across it: a sum
-// of one step for each edge, or a Fourier series. Where all colours lie under the footprint it is their mean.
+// the mean of the stripes under a Gaussian footprint, which is given in pixels, in linear light, for f that is linear
+// across it: a sum of one step for each edge, or a Fourier series. Where all colours lie under the footprint it is
+// their mean.
 //
 // An undefined value (NaN) is a quiet grey hatch, an infinity the mean colour with a hatch of the other slope. A constant is
 // the colour of its stripe.
