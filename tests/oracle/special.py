@@ -199,7 +199,7 @@ def sections(rng):
     for k in (0, -1, 1, 2, -3):
         name = "lambertw" if k == 0 else f"lambertw_{k}"
         branch = around(-0.36787944, rng, (0.3, 0.03, 1e-3)) if k in (0, -1, 1) else []
-        cut = [complex(-x, s * 0.001) for x in (0.1, 0.3, 0.5, 2, 7) for s in (1, -1)]
+        cut = [complex(-x, y) for x in (0.1, 0.3, 0.5, 1, 2, 7) for y in (0, 1e-3, -1e-3)]
         yield name, f"f(z) = lambertw(z, {k})", lambert(k), disc(4, 30, rng) + disc(0.6, 20, rng) + branch + cut + [1e5 + 3e4j, -3e8 + 1e7j, 1e-6 + 1e-6j, -1e-9j]
     yield "lambertw_real", "f(x) = lambertw(x, 0)", lambert(0), [complex(x) for x in (-0.3678, -0.36, -0.3, -0.2, -0.1, -1e-4, 1e-6, 0.01, 0.3, 0.9, 1.5, 1.99, 2.01, 2.7, 10, 1e3, 1e6, 1e20)]
     yield "lambertw_lower", "f(x) = lambertw(x, -1)", lambert(-1), [complex(x) for x in (-0.3678, -0.36, -0.3, -0.2, -0.1, -1e-2, -1e-4, -1e-8, -1e-20)]

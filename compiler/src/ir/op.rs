@@ -175,8 +175,8 @@ pub enum Prim {
     KleinJ,
     DedekindEta,
     ModularLambda,
-    /// The fourth power of the third theta function at z = 0, of τ.
-    Theta3Fourth,
+    /// θ₂⁴ θ₄⁴/θ₃⁴ as a function of τ.
+    ModularLambdaSlope,
     /// The n-th derivative by z of the elliptic function of Weierstrass.
     WeierstrassP(u8),
     /// `a^(b + c)` for a whole constant c, b + c not rounded.

@@ -359,23 +359,19 @@ fn modular() -> [Row; 7] {
             "modular_lambda(τ)",
             "elliptic modular function λ = θ₂⁴/θ₃⁴ of im τ > 0",
             // πi λ (1 - λ) θ₃⁴
-            |g, args, value, _| {
-                let fourth = call(g, Prim::Theta3Fourth, args[0]);
-                let rest = g.neg(value);
-                let rest = plus(g, rest, 1.0);
-                let product = g.mul(value, rest);
-                let product = g.mul(product, fourth);
-                turned(g, 1.0, product)
+            |g, args, _, _| {
+                let slope = call(g, Prim::ModularLambdaSlope, args[0]);
+                turned(g, 1.0, slope)
             },
         ),
         Row {
-            mnemonic: "theta3_fourth",
+            mnemonic: "modular_lambda_slope",
             derivative: Derivative::Missing,
             ..form(
-                Prim::Theta3Fourth,
+                Prim::ModularLambdaSlope,
                 &[],
                 "",
-                "θ₃⁴ as a function of τ",
+                "θ₂⁴ θ₄⁴/θ₃⁴ as a function of τ",
                 |g, _, _, _| undefined(g),
             )
         },
