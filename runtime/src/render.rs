@@ -174,15 +174,15 @@ impl RowSink for Vec<u8> {
 }
 
 /// A scene's shader on a device with its pipelines and buffers: change anything in the [`Frame`] and render again
-/// without any compilation; anything but the settings, if it was made for some ([`Self::for_settings`]). The pipelines are made when first used.
+/// without any compilation; anything but settings and samples, if it was made for some ([`Self::for_settings`]). The pipelines are made when first used.
 #[derive(Debug)]
 pub struct Renderer {
     gpu: Gpu,
     shader: wgpu::ShaderModule,
     format: Format,
     uniforms: Uniforms,
-    /// The settings that the module is made for, if it is made for some alone.
-    fixed: Option<Vec<u8>>,
+    /// The settings and the samples per axis that the module is made for, if it is made for some alone.
+    fixed: Option<(Vec<u8>, u32)>,
     compute: Option<ComputeStage>,
     fragment: Option<FragmentStage>,
     linear: Option<ComputeStage>,
@@ -222,7 +222,9 @@ impl Renderer {
                 wide: buffers::wide(gpu)?,
                 mesh: buffers::mesh(gpu, &scene.mesh)?,
             },
-            fixed: scene.fixed_settings().map(<[u8]>::to_vec),
+            fixed: scene
+                .made_for()
+                .map(|(settings, samples)| (settings.to_vec(), samples)),
             compute: None,
             fragment: None,
             linear: None,
@@ -236,7 +238,7 @@ impl Renderer {
         })
     }
 
-    /// Loads the scene for pictures with these settings alone: they become constants of the shader, which is smaller and faster.
+    /// Loads the scene for pictures with these settings and samples per axis alone: they become constants of the shader, which is smaller and faster.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -244,8 +246,9 @@ impl Renderer {
         gpu: &Gpu,
         scene: &SceneModule,
         settings: &[SettingValue],
+        samples: u32,
     ) -> Result<Self, Error> {
-        let specialised = scene.specialised(settings).map_err(|error| {
+        let specialised = scene.specialised(settings, samples).map_err(|error| {
             let reason = format!("the scene cannot be made for its settings: {error:?}");
             Error::Invalid { reason }
         })?;
@@ -332,12 +335,11 @@ impl Renderer {
             );
             return Err(Error::Invalid { reason });
         }
-        if self
-            .fixed
-            .as_ref()
-            .is_some_and(|fixed| fixed != frame.settings)
-        {
-            let reason = "the scene was made for other settings".to_owned();
+        let is_other = |(settings, samples): &(Vec<u8>, u32)| {
+            settings != frame.settings || *samples != frame.samples
+        };
+        if self.fixed.as_ref().is_some_and(is_other) {
+            let reason = "the scene was made for other settings or samples".to_owned();
             return Err(Error::Invalid { reason });
         }
         Ok(())

@@ -96,7 +96,7 @@ impl Still {
             return self.scene.clone();
         }
         self.scene
-            .specialised(&self.settings)
+            .specialised(&self.settings, self.samples)
             .expect("a module for settings")
     }
 
@@ -118,7 +118,7 @@ impl Still {
         let mut rows = Vec::new();
         match machine {
             Machine::Adapter(gpu) => {
-                Renderer::for_settings(gpu, &self.scene, &self.settings)?
+                Renderer::for_settings(gpu, &self.scene, &self.settings, self.samples)?
                     .render(&frame, &mut rows)?;
             }
             Machine::Processor(arithmetic) => {

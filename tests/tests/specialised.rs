@@ -99,7 +99,7 @@ fn a_key_is_there_if_it_is_drawn() {
 fn a_shader_for_some_settings_refuses_others() {
     let Some(gpu) = suite_gpu() else { return };
     let still = Still::new("f(x, y) = x y\nshow levels(f)\n", SIZE, 1);
-    let mut renderer = Renderer::for_settings(&gpu, &still.scene, &still.settings).expect("one");
+    let mut renderer = Renderer::for_settings(&gpu, &still.scene, &still.settings, 1).expect("one");
     let mut draw = |settings: &[u8]| {
         let frame = Frame {
             view: still.view,
@@ -146,7 +146,7 @@ proptest! {
                 let [x, y, z] = any_value(setting.spec, at);
                 (setting.value.x, setting.value.y, setting.value.z) = (x, y, z);
             }
-            let made = still.scene.specialised(&settings);
+            let made = still.scene.specialised(&settings, 2);
             prop_assert!(made.is_ok(), "{}: {:?}", source.name, made.err());
         }
     }

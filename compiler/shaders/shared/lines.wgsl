@@ -114,7 +114,8 @@ struct Octave {
 
 // `rate`: change of the coordinate per pixel.
 fn octave_of_rate(rate: f32, apart: f32, base: f32) -> Octave {
-    let place = log2(clamp(rate * apart, 1e-9, 1e37)) / log2(base);
+    // for a constant a spacing that is no power of a small base, which rounding would put into either octave
+    let place = log2(clamp(rate * apart, 3e-10, 1e37)) / log2(base);
     let finest = ceil(place);
     return Octave(i32(finest), finest - place, base_power(base, -i32(finest)));
 }

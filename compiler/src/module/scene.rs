@@ -26,11 +26,15 @@ pub struct SceneModule {
     pub settings_size: usize,
     /// What the formula's numbers are computed with.
     pub tier: Tier,
-    /// The bytes of the settings that it is made for, if it is made for some.
-    fixed: Option<Vec<u8>>,
+    /// The bytes of the settings and the samples per axis that it is made for, if it is made for some.
+    fixed: Option<(Vec<u8>, u32)>,
     /// The words of the storage `mesh`, of a scene that has one: the host's to fill in. See `shaders/shared/mesh.wgsl`.
     pub mesh: Vec<[u32; 4]>,
 }
+
+/// Place of the samples per axis among the words of `struct View`: behind the centre, the size, the tile, the pixel and the
+/// time.
+const SAMPLES: usize = 8;
 
 #[derive(Clone, Debug)]
 struct Member {
@@ -63,33 +67,41 @@ impl SceneModule {
         })
     }
 
-    /// The scene for these settings alone: a module in which they are constants, and which holds only what they need. Where
-    /// settings change from frame to frame, the module itself is the one to use, which compiles once for all of them.
+    /// The scene for these settings and this number of samples per axis alone: a module in which they are constants, and which
+    /// holds only what they need. Where settings change from frame to frame, the module itself is the one to use, which
+    /// compiles once for all of them.
     ///
     /// # Errors
     /// [`ModuleError::Invalid`], which would be a mistake of ours.
-    pub fn specialised(&self, settings: &[SettingValue]) -> Result<Self, ModuleError> {
+    pub fn specialised(
+        &self,
+        settings: &[SettingValue],
+        samples: u32,
+    ) -> Result<Self, ModuleError> {
         let bytes = self.pack_settings(settings);
         let words: Vec<Option<u32>> = bytes
             .chunks_exact(4)
             .map(|word| word.try_into().ok().map(u32::from_le_bytes))
             .collect();
         let mut module = self.module.clone();
-        specialise(&mut module, &words);
+        let mut view = [None; 12];
+        view[SAMPLES] = Some(samples);
+        specialise(&mut module, &[("settings", &words), ("view", &view)]);
         naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
         let info = validate(&module, self.tier.precision)?;
         Ok(Self {
             module,
             info,
-            fixed: Some(bytes),
+            fixed: Some((bytes, samples)),
             ..self.clone()
         })
     }
 
-    /// The bytes of the settings that it is made for alone, if it is; else it is for any.
+    /// The bytes of the settings and the samples per axis that it is made for alone, if it is; else it is for any.
     #[must_use]
-    pub fn fixed_settings(&self) -> Option<&[u8]> {
-        self.fixed.as_deref()
+    pub fn made_for(&self) -> Option<(&[u8], u32)> {
+        let (settings, samples) = self.fixed.as_ref()?;
+        Some((settings, *samples))
     }
 
     /// The first step of [`Self::new`]: derivatives, lowering and linking, not yet compacted and validated.

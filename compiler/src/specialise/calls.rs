@@ -1,28 +1,18 @@
 //! What is known of the functions of a module: what they are called with, and what they return.
 
-use naga::{Function, Handle, Type};
+use naga::{Function, Handle};
 use rustc_hash::FxHashMap;
 
 use super::known::Known;
 
 /// Arguments so far, and results from the round before.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Calls {
-    /// The type of the settings.
-    pub settings: Handle<Type>,
     arguments: FxHashMap<Handle<Function>, Vec<Option<Known>>>,
     values: FxHashMap<Handle<Function>, Known>,
 }
 
 impl Calls {
-    pub fn new(settings: Handle<Type>) -> Self {
-        Self {
-            settings,
-            arguments: FxHashMap::default(),
-            values: FxHashMap::default(),
-        }
-    }
-
     /// Notes a call: an argument stays known while all calls agree on it.
     pub fn note<'a>(
         &mut self,

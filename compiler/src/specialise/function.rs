@@ -11,12 +11,13 @@ use super::fold;
 use super::known::{Key, Known};
 use super::operands::each_operand;
 use super::pools::Pools;
-use super::stores::{tracked, writes};
+use super::stores::{ends_by_condition, tracked, ways_out, writes};
 
-/// The settings' words that are fixed; `None` for those that may change.
-#[derive(Clone, Copy, Debug)]
+/// A uniform, and those of its words that are fixed; `None` for those that may change.
+#[derive(Clone, Debug)]
 pub struct Fixed<'a> {
     pub global: Handle<GlobalVariable>,
+    pub ty: Handle<Type>,
     pub words: &'a [Option<u32>],
 }
 
@@ -51,7 +52,7 @@ pub struct Unforeseen;
 /// Makes a function anew.
 pub struct Rewriter<'a, 'm> {
     old: &'a Function,
-    fixed: Fixed<'a>,
+    fixed: &'a [Fixed<'a>],
     pools: &'a mut Pools<'m>,
     calls: &'a mut Calls,
     arguments: Vec<Option<Known>>,
@@ -69,6 +70,8 @@ pub struct Rewriter<'a, 'm> {
     returned: Vec<Option<Known>>,
     /// Whether it does anything but compute.
     acts: bool,
+    /// Whether the turn of a loop is being tried.
+    is_trying: bool,
     /// Whether every operand was there when it was used.
     is_sound: bool,
 }
@@ -77,7 +80,7 @@ impl<'a, 'm> Rewriter<'a, 'm> {
     pub fn new(
         old: &'a Function,
         arguments: Vec<Option<Known>>,
-        fixed: Fixed<'a>,
+        fixed: &'a [Fixed<'a>],
         pools: &'a mut Pools<'m>,
         calls: &'a mut Calls,
     ) -> Self {
@@ -96,6 +99,7 @@ impl<'a, 'm> Rewriter<'a, 'm> {
             run: None,
             returned: Vec::new(),
             acts: false,
+            is_trying: false,
             is_sound: true,
         }
     }
@@ -363,7 +367,7 @@ impl<'a, 'm> Rewriter<'a, 'm> {
         let selector = self.operand(selector);
         self.flush();
         for case in cases {
-            for local in writes(self.old, &case.body) {
+            for (local, _) in writes(self.old, &case.body) {
                 self.values.remove(&local);
             }
         }
@@ -398,13 +402,23 @@ impl<'a, 'm> Rewriter<'a, 'm> {
         break_if: Option<Handle<Expression>>,
         span: Span,
     ) -> Result<(), Unforeseen> {
+        if !self.is_trying && self.only_turn(body)? {
+            return Ok(());
+        }
         self.acts = true;
         self.flush();
-        for local in [body, continuing]
+        for (local, stored) in [body, continuing]
             .into_iter()
             .flat_map(|block| writes(self.old, block))
         {
-            self.values.remove(&local);
+            // what is stored again and again may be what is there
+            let same = match (self.values.get(&local), &self.old.expressions[stored]) {
+                (Some(value), Expression::Literal(x)) => value.is(&Known::Scalar(*x)),
+                _ => false,
+            };
+            if !same {
+                self.values.remove(&local);
+            }
         }
         let around = self.values.clone();
         let (body, _) = self.block(body)?;
@@ -422,6 +436,32 @@ impl<'a, 'm> Rewriter<'a, 'm> {
         };
         self.push(repeat, span);
         Ok(())
+    }
+
+    /// Tries whether the loop certainly ends in its first turn; then that turn is made, without the loop.
+    fn only_turn(&mut self, body: &Block) -> Result<bool, Unforeseen> {
+        if !ends_by_condition(body) {
+            return Ok(false);
+        }
+        self.flush();
+        let before = (self.slots.clone(), self.values.clone(), self.acts);
+        let returns = self.returned.len();
+        self.is_trying = true;
+        let tried = self.block(body);
+        self.is_trying = false;
+        let (mut turn, _) = tried?;
+        if let Some(Statement::Break) = turn.last()
+            && ways_out(&turn) == 1
+        {
+            turn.cull(turn.len() - 1..);
+            if let Some(block) = self.out.last_mut() {
+                block.extend_block(turn);
+            }
+            return Ok(true);
+        }
+        (self.slots, self.values, self.acts) = before;
+        self.returned.truncate(returns);
+        Ok(false)
     }
 
     fn push(&mut self, statement: Statement, span: Span) {
@@ -620,8 +660,8 @@ impl<'a, 'm> Rewriter<'a, 'm> {
         if let Expression::LocalVariable(local) = self.old.expressions[pointer] {
             return self.values.get(&local).cloned();
         }
-        let read = |(ty, offset)| {
-            let word = |offset, kind| self.fixed.word(offset, kind);
+        let read = |(fixed, ty, offset): (&Fixed, _, _)| {
+            let word = |offset, kind| fixed.word(offset, kind);
             self.pools.read(ty, offset, &word)
         };
         if let Some(place) = self.place(pointer) {
@@ -634,20 +674,23 @@ impl<'a, 'm> Rewriter<'a, 'm> {
         read(self.place(base)?)?.part(index as usize).cloned()
     }
 
-    /// The type of a part of the settings, and its offset in bytes.
-    fn place(&self, pointer: Handle<Expression>) -> Option<(Handle<Type>, u32)> {
+    /// The uniform that a pointer points into, the type of the part, and its offset in bytes.
+    fn place(&self, pointer: Handle<Expression>) -> Option<(&Fixed<'a>, Handle<Type>, u32)> {
         match self.old.expressions[pointer] {
-            Expression::GlobalVariable(global) if global == self.fixed.global => {
-                Some((self.calls.settings, 0))
+            Expression::GlobalVariable(global) => {
+                let fixed = self.fixed.iter().find(|fixed| fixed.global == global)?;
+                Some((fixed, fixed.ty, 0))
             }
             Expression::AccessIndex { base, index } => {
-                let (ty, offset) = self.place(base)?;
+                let (fixed, ty, offset) = self.place(base)?;
                 match self.pools.inner(ty) {
                     TypeInner::Struct { members, .. } => {
                         let member = members.get(index as usize)?;
-                        Some((member.ty, offset + member.offset))
+                        Some((fixed, member.ty, offset + member.offset))
                     }
-                    TypeInner::Array { base, stride, .. } => Some((*base, offset + index * stride)),
+                    TypeInner::Array { base, stride, .. } => {
+                        Some((fixed, *base, offset + index * stride))
+                    }
                     _ => None,
                 }
             }

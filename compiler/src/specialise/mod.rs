@@ -25,25 +25,28 @@ use pools::Pools;
 /// Rounds after which results of functions are no longer followed: each looks one call further up.
 const MAX_ROUNDS: usize = 6;
 
-/// Makes the words of the uniform `settings` constants of the module; `None` stands for words that may change. A module
-/// without settings, or with a construct that no shader of ours has, stays as it is.
-pub fn specialise(module: &mut Module, words: &[Option<u32>]) {
-    let settings = module
+/// What a uniform holds: its name, and its words, `None` for those that may change.
+pub type Words<'a> = (&'a str, &'a [Option<u32>]);
+
+/// Makes words of uniforms constants of the module. A module with a construct that no shader of ours has stays as it is.
+pub fn specialise(module: &mut Module, uniforms: &[Words<'_>]) {
+    let fixed: Vec<Fixed> = module
         .global_variables
         .iter()
-        .find(|(_, g)| g.name.as_deref() == Some("settings"))
-        .map(|(handle, g)| (handle, g.ty));
-    let Some((global, ty)) = settings else {
-        return;
-    };
+        .filter_map(|(global, variable)| {
+            let name = variable.name.as_deref()?;
+            let &(_, words) = uniforms.iter().find(|(known, _)| *known == name)?;
+            let ty = variable.ty;
+            Some(Fixed { global, ty, words })
+        })
+        .collect();
     if !is_known_throughout(module) {
         return;
     }
     let mut specialised = module.clone();
-    let fixed = Fixed { global, words };
-    let mut calls = Calls::new(ty);
+    let mut calls = Calls::default();
     for _ in 0..MAX_ROUNDS {
-        match round(&mut specialised, fixed, &mut calls) {
+        match round(&mut specialised, &fixed, &mut calls) {
             Some(true) => calls.forget_arguments(),
             Some(false) => break,
             None => return,
@@ -62,7 +65,7 @@ fn is_known_throughout(module: &Module) -> bool {
 
 /// Makes all functions anew, callers before callees; whether there is something new to follow, or `None` for a construct that
 /// is not foreseen.
-fn round(module: &mut Module, fixed: Fixed, calls: &mut Calls) -> Option<bool> {
+fn round(module: &mut Module, fixed: &[Fixed], calls: &mut Calls) -> Option<bool> {
     let mut functions = std::mem::take(&mut module.functions);
     let mut entries = std::mem::take(&mut module.entry_points);
     let mut pools = Pools::new(module);

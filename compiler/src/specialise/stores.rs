@@ -31,17 +31,42 @@ pub fn tracked(function: &Function) -> FxHashSet<Handle<LocalVariable>> {
     all
 }
 
-/// The local variables that a block stores to as a whole.
-pub fn writes(function: &Function, block: &Block) -> FxHashSet<Handle<LocalVariable>> {
-    let mut all = FxHashSet::default();
+/// The local variables that a block stores to as a whole, with what it stores.
+pub fn writes(
+    function: &Function,
+    block: &Block,
+) -> Vec<(Handle<LocalVariable>, Handle<Expression>)> {
+    let mut all = Vec::new();
     each_statement(block, &mut |statement| {
-        if let Statement::Store { pointer, .. } = statement
+        if let Statement::Store { pointer, value } = statement
             && let Expression::LocalVariable(local) = function.expressions[*pointer]
         {
-            all.insert(local);
+            all.push((local, *value));
         }
     });
     all
+}
+
+/// Whether a condition at the end of a branch of a loop's body ends the loop.
+pub fn ends_by_condition(body: &Block) -> bool {
+    let breaks = |block: &Block| matches!(block.last(), Some(Statement::Break));
+    body.iter().any(|statement| match statement {
+        Statement::If { accept, reject, .. } => breaks(accept) || breaks(reject),
+        _ => false,
+    })
+}
+
+/// How many statements of a loop's body end the loop or its turn.
+pub fn ways_out(body: &Block) -> usize {
+    let count = |statement: &Statement| match statement {
+        Statement::Break | Statement::Continue => 1,
+        Statement::Block(inner) => ways_out(inner),
+        Statement::If { accept, reject, .. } => ways_out(accept) + ways_out(reject),
+        // whose breaks are its own; its continues may be the loop's, so it counts as a way
+        Statement::Switch { .. } => 1,
+        _ => 0,
+    };
+    body.iter().map(count).sum()
 }
 
 /// Calls `f` on each statement of a block and of the blocks in it. Depth is that of the template's text, not of the user's.

@@ -170,9 +170,14 @@ fn draw(
     let bytes = scene.pack_settings(&subject.settings);
     let frame = subject.frame(&bytes);
     let mut pixels = Vec::new();
-    Artist::new(computer, &scene, frame.pipeline, Some(&subject.settings))?
-        .render(&frame, &subject.settings, &mut pixels)
-        .map_err(|error| subject.source.blamed(error.into(), console))?;
+    Artist::new(
+        computer,
+        &scene,
+        frame.pipeline,
+        Some((&subject.settings, frame.samples)),
+    )?
+    .render(&frame, &subject.settings, &mut pixels)
+    .map_err(|error| subject.source.blamed(error.into(), console))?;
     Ok(pixels)
 }
 

@@ -146,7 +146,7 @@ pub(super) fn run(arguments: &RenderArguments, console: &Console) -> Result<(), 
     );
     let mut progress = Progress::new(console);
     let fixed = arguments.animation.keeps_settings(picture);
-    let fixed = fixed.then_some(settings.as_slice());
+    let fixed = fixed.then_some((settings.as_slice(), frame.samples));
     let mut artist = Artist::new(&computer, &scene, frame.pipeline, fixed)?;
     if let Some(frames) = frames {
         let reel = Reel {
@@ -242,16 +242,16 @@ pub(super) enum Artist {
 }
 
 impl Artist {
-    /// `settings` are those of all pictures, if they stay the same.
+    /// `fixed`: settings and samples of all pictures, if they stay the same.
     pub(super) fn new(
         computer: &Computer,
         scene: &SceneModule,
         pipeline: Pipeline,
-        settings: Option<&[SettingValue]>,
+        fixed: Option<(&[SettingValue], u32)>,
     ) -> Result<Self, Failure> {
         Ok(match computer {
-            Computer::Adapter(gpu) => Self::Device(Box::new(match settings {
-                Some(settings) => Renderer::for_settings(gpu, scene, settings)?,
+            Computer::Adapter(gpu) => Self::Device(Box::new(match fixed {
+                Some((settings, samples)) => Renderer::for_settings(gpu, scene, settings, samples)?,
                 None => Renderer::new(gpu, scene)?,
             })),
             Computer::Processor(arithmetic) => {

@@ -88,9 +88,14 @@ fn drawn(subject: &Subject, side: &Side, console: &Console) -> Result<Named, Fai
         sink: &mut rows,
         progress: &mut progress,
     };
-    Artist::new(&computer, &scene, frame.pipeline, Some(&subject.settings))?
-        .render(&frame, &subject.settings, &mut counted)
-        .map_err(|error| subject.source.blamed(error.into(), console))?;
+    Artist::new(
+        &computer,
+        &scene,
+        frame.pipeline,
+        Some((&subject.settings, frame.samples)),
+    )?
+    .render(&frame, &subject.settings, &mut counted)
+    .map_err(|error| subject.source.blamed(error.into(), console))?;
     Ok(Named {
         picture: Bitmap::from_rgba(frame.size, &rows)?,
         name: format!("{} on {computer}", tier.precision.name()),
