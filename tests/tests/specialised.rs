@@ -82,17 +82,17 @@ fn what_settings_rule_out_is_left_out() {
     }
 }
 
-/// A key that is not drawn has no digits, and one that is has.
+/// What draws a key is there if one is drawn.
 #[test]
 fn a_key_is_there_if_it_is_drawn() {
-    let digits = |key: &str| {
+    let has_key = |key: &str| {
         let text = format!("f(z) = z^2\nshow domain(f) {{ key = {key} }}\n");
         let module = Still::new(&text, SIZE, 1).shader(false).module;
         let mut functions = module.functions.iter();
-        functions.any(|(_, f)| f.name.as_deref() == Some("key_label"))
+        functions.any(|(_, f)| f.name.as_deref() == Some("key_jet"))
     };
-    assert!(!digits("0"));
-    assert!(digits("0.2"));
+    assert!(!has_key("0"));
+    assert!(has_key("0.2"));
 }
 
 #[test]

@@ -71,8 +71,8 @@ fn square_train(u: f32, window: f32) -> f32 {
     let from_edge = 0.5 - 2.0 * abs(place - floor(place) - 0.5);
     let per_window = 2.0 / max(window, 1e-20);
     let most = clamp(per_window - 1.0, 0.0, 1.0);
-    // an edge itself is -1 where there is no window; the last term is nothing elsewhere
-    return clamp(from_edge * per_window - 2e-20 * per_window, -most, most);
+    // without a window an edge is of the square that begins there
+    return select(clamp(from_edge * per_window, -most, most), select(-1.0, 1.0, fract_of(0.5 * u) < 0.5), window < 1e-18);
 }
 
 // base^n for a base of 1 or more and |n| up to 127, by squaring: exact as long as the result is a whole number below 2²⁴.
