@@ -9,6 +9,7 @@ mod affine;
 mod algebraic;
 mod arithmetic;
 mod bessel;
+mod bowl;
 mod breaks;
 mod class;
 mod equiangular;
