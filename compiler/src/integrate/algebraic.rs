@@ -29,7 +29,7 @@ pub(super) struct Bowl {
     /// Values at both ends; what is below 0 by a rounding is 0.
     pub ends: [Id; 2],
     /// Whether it is known to be nowhere negative.
-    is_sum_of_squares: bool,
+    pub is_sum_of_squares: bool,
     /// Whether a is known to be not negative.
     opens_up: bool,
 }
@@ -314,6 +314,9 @@ impl Integrator<'_> {
         let floor = self.g.real(TINY);
         let least = self.g.apply(Prim::Max, &[least, floor]);
         let width = self.g.apply(Prim::Max, &[width, least]);
+        if bowl.opens_up {
+            return self.by_width(bowl, sum, width);
+        }
         let log = self.log_form(bowl, sum, width);
         let square_length = square(self.g, bowl.length);
         let p = mul(self.g, bowl.q.a, square_length);

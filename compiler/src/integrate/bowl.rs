@@ -19,6 +19,11 @@ impl Integrator<'_> {
     pub(super) fn reciprocal_root_of_bowl(&mut self, bowl: &Bowl) -> Id {
         let (roots, sum) = self.roots(bowl);
         let width = self.width(bowl, roots);
+        self.by_width(bowl, sum, width)
+    }
+
+    /// The same with S and W.
+    pub(super) fn by_width(&mut self, bowl: &Bowl, sum: Id, width: Id) -> Id {
         let root = call(self.g, Prim::Sqrt, bowl.q.a);
         let size = call(self.g, Prim::Abs, bowl.length);
         let along = mul(self.g, root, size);

@@ -36,6 +36,7 @@ pub use class::MAX_DEGREE;
 pub use expand::{MAX_FACTORS, MAX_TERMS};
 pub use explain::{Explanation, Told, explain};
 pub use exponential::MAX_DEGREE_BESIDE;
+pub(crate) use field::of_integrals;
 pub use field::{FieldIntegral, INPUTS, field_integral};
 pub use gaussian::MAX_DEGREE_BESIDE_GAUSSIAN;
 pub use legendre::{Node as QuadratureNode, gauss_legendre};
@@ -384,14 +385,6 @@ impl<'g> Integrator<'g> {
         let whole = self.path.clone();
         let seen = whole.from_origin(self.g);
         let values = seen.point(self.g, t);
-        body.at(self.g, &values)
-    }
-
-    /// Expressions at s.
-    fn at(&mut self, roots: &[Id], s: Id) -> SmallVec<[Id; 4]> {
-        let leaves = self.path.coordinates.iter().map(|c| c.leaf);
-        let body = Body::new(self.g, roots, leaves);
-        let values = self.path.point(self.g, s);
         body.at(self.g, &values)
     }
 

@@ -1,9 +1,12 @@
 //! Integrals along rays against mpmath at 60 digits: tests/oracle/integrals_rays.py.
 
+mod combinations;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod language;
+mod peers;
 mod ridge;
+mod stability;
 mod textbook;
 
 use std::fmt::Write as _;
