@@ -37,13 +37,19 @@ struct Panel {
 }
 
 /// The integral of f over the panels between these places, in order, by the rules of Lobatto and Kronrod on panels that are
-/// halved until both agree, and their halves with them.
+/// halved until both agree, and their halves with them. NaN where f is no number at one of the first nodes.
 pub fn adaptive(places: &[f64], mut f: impl FnMut(f64) -> f64) -> Exact {
     let mut open: Vec<Panel> = places
         .windows(2)
         .map(|ends| panel(&mut f, ends[0], ends[1], 0))
         .collect();
-    let size: f64 = open.iter().map(|panel| panel.size).sum();
+    let size: f64 = open.iter().map(|panel| panel.size.abs()).sum();
+    if !size.is_finite() {
+        return Exact {
+            value: f64::NAN,
+            size,
+        };
+    }
     let mut total = Exact {
         value: 0.0,
         size: 0.0,

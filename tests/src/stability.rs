@@ -133,23 +133,22 @@ pub fn measure(class: &Class, rays: &[Ray], machine: &Machine) -> Result<Found, 
         Some(text) => run(&textbook(text), false)?,
         None => vec![f64::NAN; exact.len()],
     };
-    let mut outcomes = Vec::new();
-    for (k, (ray, truth)) in exact.iter().enumerate() {
-        let error = error(own[k], truth);
-        let moved = if error <= BOUND {
-            0.0
-        } else {
-            movement(&integral, ray)? / truth.size.max(LEAST)
-        };
-        outcomes.push(Outcome {
-            ray: *ray,
-            exact: truth.value,
-            found: own[k],
-            error,
-            moved,
-            shifted: self::error(shifted[k], truth),
-            textbook: self::error(naive[k], truth),
-        });
+    let outcome = |(k, (ray, truth)): (usize, &(Ray, Truth))| Outcome {
+        ray: *ray,
+        exact: truth.value,
+        found: own[k],
+        error: error(own[k], truth),
+        moved: 0.0,
+        shifted: error(shifted[k], truth),
+        textbook: error(naive[k], truth),
+    };
+    let mut outcomes: Vec<Outcome> = exact.iter().enumerate().map(outcome).collect();
+    let beyond: Vec<usize> = (0..exact.len())
+        .filter(|&k| outcomes[k].error > BOUND)
+        .collect();
+    let rays: Vec<Ray> = beyond.iter().map(|&k| exact[k].0).collect();
+    for (k, moved) in beyond.into_iter().zip(movements(&integral, &rays)?) {
+        outcomes[k].moved = moved / exact[k].1.size.max(LEAST);
     }
     Ok(Found {
         class: *class,
@@ -176,19 +175,25 @@ fn error(found: f64, truth: &Truth) -> f64 {
     }
 }
 
-/// How much the integral changes where each number of the ray is rounded, the sum over the eight.
-fn movement(integral: &Formula, ray: &Ray) -> Result<f64, String> {
-    let mut points = vec![point(ray)];
-    for k in 0..8 {
-        let mut moved = *ray;
-        moved.numbers[k] += ROUNDING * moved.numbers[k].abs();
-        points.push(point(&moved));
+/// How much the integral along each ray changes where each number of the ray is rounded, the sum over the eight.
+fn movements(integral: &Formula, rays: &[Ray]) -> Result<Vec<f64>, String> {
+    let mut points = Vec::new();
+    for ray in rays {
+        points.push(point(ray));
+        for k in 0..8 {
+            let mut moved = *ray;
+            moved.numbers[k] += ROUNDING * moved.numbers[k].abs();
+            points.push(point(&moved));
+        }
     }
     let rows = Machine::Reference.run(integral, What::Value, &points)?;
-    Ok(rows[1..]
-        .iter()
-        .map(|row| (row[0] - rows[0][0]).abs())
-        .sum())
+    let change = |rows: &[Vec<f64>]| {
+        rows[1..]
+            .iter()
+            .map(|row| (row[0] - rows[0][0]).abs())
+            .sum()
+    };
+    Ok(rows.chunks(9).map(change).collect())
 }
 
 /// The integral, where it is a number that binary32 holds and so is f on the way.

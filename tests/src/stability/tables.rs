@@ -154,14 +154,9 @@ pub fn by_textbook(all: &[Found]) -> String {
 /// The rays whose error is beyond the bound and as many roundings of their numbers, worst first.
 #[must_use]
 pub fn unexplained(found: &Found, roundings: f64, count: usize) -> String {
-    let near = found.at(Distance::Near);
-    let not_finite = found
-        .outcomes
-        .iter()
-        .filter(|o| o.ray.distance != Distance::Near && !o.found.is_finite());
-    let mut bad: Vec<&Outcome> = near
+    let mut bad: Vec<&Outcome> = found
+        .at(Distance::Near)
         .filter(|o| !o.is_within(roundings))
-        .chain(not_finite)
         .collect();
     bad.sort_by(|a, b| b.error.total_cmp(&a.error));
     let mut out = format!("{}: {} rays\n", found.class.formula, bad.len());
