@@ -5,6 +5,9 @@ const DEEPEST: u32 = 40;
 /// How far apart the two rules, and a panel and its halves, may be, as a part of ∫ |f|; what is kept is closer.
 const TOLERANCE: f64 = 1e-10;
 
+/// How many panels are halved, beside one for each that is begun with.
+const MOST: usize = 20_000;
+
 /// An integral, and that of the absolute value.
 #[derive(Clone, Copy, Debug)]
 pub struct Exact {
@@ -37,19 +40,22 @@ struct Panel {
 }
 
 /// The integral of f over the panels between these places, in order, by the rules of Lobatto and Kronrod on panels that are
-/// halved until both agree, and their halves with them. NaN where f is no number at one of the first nodes.
+/// halved until both agree, and their halves with them. NaN where f is no number at one of the
+/// first nodes, and where that takes too long, as beside a pole.
 pub fn adaptive(places: &[f64], mut f: impl FnMut(f64) -> f64) -> Exact {
     let mut open: Vec<Panel> = places
         .windows(2)
         .map(|ends| panel(&mut f, ends[0], ends[1], 0))
         .collect();
     let size: f64 = open.iter().map(|panel| panel.size.abs()).sum();
+    let none = Exact {
+        value: f64::NAN,
+        size,
+    };
     if !size.is_finite() {
-        return Exact {
-            value: f64::NAN,
-            size,
-        };
+        return none;
     }
+    let mut left = MOST + open.len();
     let mut total = Exact {
         value: 0.0,
         size: 0.0,
@@ -68,6 +74,10 @@ pub fn adaptive(places: &[f64], mut f: impl FnMut(f64) -> f64) -> Exact {
             total.value += value;
             total.size += halves[0].size + halves[1].size;
         } else {
+            let Some(fewer) = left.checked_sub(1) else {
+                return none;
+            };
+            left = fewer;
             open.extend(halves);
         }
     }

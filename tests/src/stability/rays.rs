@@ -202,7 +202,7 @@ fn smaller(a: Slant, b: Slant) -> Slant {
 }
 
 impl Ray {
-    /// The same ray with its origin moved, in f64, to where it is nearest to the centre of the scene.
+    /// The same ray with its origin moved, in f64, to the place of the interval that is nearest to the centre of the scene.
     #[must_use]
     pub fn shifted(&self) -> Self {
         let n = self.numbers;
@@ -211,7 +211,8 @@ impl Ray {
             along += n[c] * n[3 + c];
             square += n[3 + c] * n[3 + c];
         }
-        let t = if square > 0.0 { -along / square } else { 0.0 };
+        let foot = if square > 0.0 { -along / square } else { 0.0 };
+        let t = foot.clamp(n[6].min(n[7]), n[6].max(n[7]));
         let mut out = *self;
         for c in 0..3 {
             out.numbers[c] = single(n[c] + t * n[3 + c]);

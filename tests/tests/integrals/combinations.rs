@@ -290,11 +290,14 @@ fn compare(
         if !exact.value.is_finite() {
             continue;
         }
-        let off = |value: f64| (value - exact.value).abs() / exact.size.max(1e-30);
+        let off = |value: f64| {
+            let off = (value - exact.value).abs() / exact.size.max(1e-30);
+            if off.is_nan() { f64::INFINITY } else { off }
+        };
         out.rays += 1;
         out.within += usize::from(off(single[k][0]) <= 1e-6);
         // eight digits of the rule and the roundings of the ray are enough to tell a wrong rule
-        if !(off(double[k][0]) <= 1e-8) || !(off(single[k][0]) <= 1e-3) {
+        if off(double[k][0]) > 1e-8 || off(single[k][0]) > 1e-3 {
             let _ = writeln!(
                 out.complaints,
                 "{text}\n    on {ray:?}: {:e} and {:e}, not {:e}",

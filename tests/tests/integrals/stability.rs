@@ -15,6 +15,10 @@ use super::{DOUBLE, densities};
 /// Rays of each class.
 const COUNT: usize = 20;
 
+/// Part of ∫ |f| that an integral changes by where the numbers of its ray are rounded, from which on it may be anything: on a
+/// ray that passes the pole of 1/|p| by less than a rounding it is infinite.
+const ILL: f64 = 0.1;
+
 fn single() -> Machine {
     Machine::Processor(Arithmetic::Ieee32, Precision::Accurate)
 }
@@ -30,7 +34,7 @@ fn rays_of_every_kind() {
         let found = measure(class, &rays, &single()).unwrap();
         let is_bad = found
             .at(Distance::Near)
-            .any(|o| !o.is_within(8.0) || !o.found.is_finite());
+            .any(|o| o.moved < ILL && (!o.is_within(8.0) || !o.found.is_finite()));
         if is_bad {
             wrong += &tables::unexplained(&found, 8.0, 5);
         }
