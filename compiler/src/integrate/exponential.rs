@@ -232,6 +232,8 @@ impl Integrator<'_> {
         let half = self.path.half;
         let zero = self.g.real(0.0);
         let (w, v) = (mul(self.g, e.slope, half), mul(self.g, phase.slope, half));
+        // the phase at the end where the exponential is greater
+        let turn = if_less(self.g, w, zero, phase.ends[0], phase.ends[1]);
         let back = self.g.neg(v);
         let v = if_less(self.g, w, zero, back, v);
         let w = call(self.g, Prim::Abs, w);
@@ -239,7 +241,7 @@ impl Integrator<'_> {
         let argument = self.g.apply(Prim::Complex, &twice);
         let quotient = call(self.g, Prim::Exprel, argument);
         let [re, im] = [Prim::Re, Prim::Im].map(|part| call(self.g, part, quotient));
-        let (top, turn) = (self.g.apply(Prim::Max, &e.ends), add(self.g, phase.mid, v));
+        let top = self.g.apply(Prim::Max, &e.ends);
         let size = call(self.g, Prim::Exp, top);
         let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, turn));
         let mixed = if prim == Prim::Sin {
