@@ -16,7 +16,7 @@ pub const MAX_DEGREE_BESIDE_POWER: u32 = 12;
 /// Nodes on intervals whose nearest singularity is 2h from the middle: (2 + √3)⁻²⁴ is 2e-14.
 pub(super) const NEAR_NODES: usize = 12;
 /// Below it a quadratic counts as 0 where its logarithm is multiplied by 0.
-const TINY: f64 = 1e-37;
+pub(super) const TINY: f64 = 1e-37;
 
 /// A quadratic with what its rules share.
 #[derive(Clone, Copy)]

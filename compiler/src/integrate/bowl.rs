@@ -8,8 +8,8 @@ use super::algebraic::Bowl;
 use super::arithmetic::{add, call, div, if_less, mul, scale, square, sub};
 use crate::ir::{Id, Prim};
 
-/// Below it log(1 + x) is x.
-const TINY: f64 = 1e-12;
+/// What a is kept from 0 by, where its root has no derivative.
+const LEAST_CURVE: f64 = 1e-37;
 /// What S is kept from 0 by.
 const LEAST_SUM: f64 = 1e-30;
 
@@ -22,18 +22,22 @@ impl Integrator<'_> {
         self.by_width(bowl, sum, width)
     }
 
-    /// The same with S and W.
+    /// The same with S and W. Below 1 by log(1 + y)/y, so that the derivative does not cancel.
     pub(super) fn by_width(&mut self, bowl: &Bowl, sum: Id, width: Id) -> Id {
-        let root = call(self.g, Prim::Sqrt, bowl.q.a);
+        let floor = self.g.real(LEAST_CURVE);
+        let curve = self.g.apply(Prim::Max, &[bowl.q.a, floor]);
+        let root = call(self.g, Prim::Sqrt, curve);
         let size = call(self.g, Prim::Abs, bowl.length);
         let along = mul(self.g, root, size);
         let whole = self.g.add(sum, along);
         let mean = self.g.div(whole, width);
         let growth = mul(self.g, along, mean);
         let log = call(self.g, Prim::Log1p, growth);
-        let log = div(self.g, log, along);
-        let tiny = self.g.real(TINY);
-        let mean = if_less(self.g, growth, tiny, mean, log);
+        let far = div(self.g, log, along);
+        let rate = call(self.g, Prim::Log1pRel(0), growth);
+        let near = mul(self.g, mean, rate);
+        let one = self.g.real(1.0);
+        let mean = if_less(self.g, growth, one, near, far);
         mul(self.g, bowl.length, mean)
     }
 

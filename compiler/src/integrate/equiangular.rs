@@ -1,7 +1,7 @@
 //! Negative powers of quadratics, alone and beside polynomials, over the angle at their zero.
 
 use super::Integrator;
-use super::algebraic::Bowl;
+use super::algebraic::{Bowl, TINY};
 use super::arithmetic::{add, call, if_less, mul, scale, square, sub};
 use super::exponential::NEAR;
 use super::legendre::nodes_for_exponential;
@@ -60,7 +60,9 @@ impl Integrator<'_> {
         let (sum, difference) = (self.g.add(ends[0], ends[1]), self.g.sub(ends[1], ends[0]));
         let (middle, reach) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, difference));
         let size = if bowl.is_sum_of_squares {
-            bowl.q.discriminant
+            // where D is 0 it is least, and its root has no derivative
+            let floor = self.g.real(TINY);
+            self.g.apply(Prim::Max, &[bowl.q.discriminant, floor])
         } else {
             call(self.g, Prim::Abs, bowl.q.discriminant)
         };

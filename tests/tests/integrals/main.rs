@@ -11,6 +11,7 @@ mod nodes;
 mod peers;
 mod proof;
 mod ridge;
+mod slopes;
 mod stability;
 mod textbook;
 
