@@ -20,6 +20,9 @@ pub mod marches;
 pub mod mutate;
 #[cfg(feature = "gpu")]
 pub mod pictures;
+pub mod quadrature;
+#[cfg(feature = "gpu")]
+pub mod stability;
 #[cfg(feature = "gpu")]
 pub mod stills;
 #[cfg(feature = "gpu")]

@@ -10,10 +10,11 @@ use pullback_compiler::formula::Formula;
 use pullback_compiler::lower::Precision;
 use pullback_runtime::{Error, Gpu, Size};
 
+use crate::quadrature::Exact;
 use crate::stills::Still;
 use crate::twins::{Canvas, Stage};
 use densities::Density;
-use rays::{Exact, Ray, Reference, rays};
+use rays::{Ray, Reference, rays};
 use shaders::{Method, module};
 
 /// The timed frame.

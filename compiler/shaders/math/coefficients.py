@@ -95,6 +95,20 @@ R = sqrt(2)
 erfcx_at = lambda x: exp(x * x) * erfc(x) if x < 1000 else (1 - 1 / (2 * x * x) + 3 / (4 * x**4)) / (x * sqrt(pi))
 erfcx_mapped = lambda y: 2 / sqrt(pi) if y == 1 else (1 + 6 * (1 + y) / (1 - y)) * erfcx_at(3 * (1 + y) / (1 - y))
 
+K = mpf("1.8")
+
+
+def atan_quotient(x):
+    """atan(sqrt x)/sqrt x, continued through 0."""
+    r = sqrt(abs(x))
+    return 1 - x / 3 if abs(x) < mpf(10) ** -20 else (atan(r) if x > 0 else atanh(r)) / r
+
+
+def atan_quotient1(x):
+    """(1 - atan(sqrt x)/sqrt x)/x"""
+    return mpf(1) / 3 - x / 5 + x * x / 7 if abs(x) < mpf(10) ** -9 else (1 - atan_quotient(x)) / x
+
+
 def shortest(v):
     """The shortest decimal that reads back as this binary32."""
     for digits in range(1, 12):
@@ -125,6 +139,14 @@ ROWS = {
         "cos(pi f) = 1 + z P(z), z = f^2, |f| < 1/4",
     ),
     "atan_short": (odd(atan), odd_weight(atan), 0, mpf(1) / 60, 1e-11, "atan u = u + u^3 P(u^2), |u| < 1/8"),
+    "atan_quotient": (
+        lambda v: atan_quotient(2 * v / (1 - v)), lambda v: 1 / atan_quotient(2 * v / (1 - v)), -mpf(1) / 3, mpf(1) / 5,
+        2e-8, "atan(sqrt x)/sqrt x = P(z), z = x/(2 + x), |x| < 1/2",
+    ),
+    "atan_quotient1": (
+        lambda v: atan_quotient1(K * v / (1 - v)), lambda v: 1 / atan_quotient1(K * v / (1 - v)), mpf(-0.75) / (K - 0.75),
+        2 / (K + 2), 1.2e-8, "(1 - atan(sqrt x)/sqrt x)/x = P(z), z = x/(1.8 + x), -3/4 < x < 2",
+    ),
     "tan": (odd(tan), odd_weight(tan), 0, Q, 1.5e-8, "tan r = r + r^3 P(r^2)"),
     "atan": (odd(atan), odd_weight(atan), 0, 1, 1e-8, "atan t = t + t^3 P(t^2)"),
     "asin": (odd(asin), odd_weight(asin), 0, 0.25, 6e-9, "asin t = t + t^3 P(t^2)"),

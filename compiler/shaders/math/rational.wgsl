@@ -20,6 +20,21 @@ fn moment_fraction(b: f32, z: f32) -> f32 {
     return 1.0 / value;
 }
 
+/// The first of these integrals, b = 1, for |z| ≤ 1/2 as a polynomial in z/(2 + z); coefficients.py, atan_quotient.
+fn first_atan_quotient(x: f32) -> f32 {
+    let z = x / (2.0 + x);
+    return 1.0 + z * (-0.66666675 + z * (0.13333191 + z * (-0.20950903 + z * (0.08268822 + z * (-0.1224063 + z * (
+        0.054721456 + z * (-0.08051514 + z * 0.1149793)))))));
+}
+
+/// The second, b = 3, for -3/4 ≤ z ≤ 2 as a polynomial in z/(1.8 + z); coefficients.py, atan_quotient1.
+fn second_atan_quotient(x: f32) -> f32 {
+    let z = x / (1.8 + x);
+    return 0.33333334 + z * (-0.36000004 + z * (0.10285736 + z * (-0.08228277 + z * (0.03888929 + z * (-0.032846894 + z * (
+        0.017614495 + z * (-0.014670463 + z * (0.00755642 + z * (-0.011968321 + z * (0.0070181745 + z * (0.006768418 +
+        z * (-8.082127e-05 + z * -0.014927694))))))))))));
+}
+
 /// ∫₀¹ s^2n / (1 + z s²) ds: for n = 0 atan(√z)/√z, continued through 0 to artanh(√-z)/√-z; ∞ at -1, NaN below.
 fn real_atan_quotient(z: f32, n: i32) -> f32 {
     if is_nan(z) || z < -1.0 {
@@ -31,12 +46,17 @@ fn real_atan_quotient(z: f32, n: i32) -> f32 {
     if is_infinite(z) {
         return 0.0;
     }
-    if magnitude(z) < 0.5 || n > 0 && z > -0.9 && z < 3.0 {
+    if n == 1 && z > -0.75 && z < 2.0 {
+        return second_atan_quotient(z);
+    }
+    if n > 1 && z > -0.9 && z < 3.0 {
         return moment_fraction(2.0 * f32(n) + 1.0, z);
     }
     let root = sqrt(magnitude(z));
     var value = 0.0;
-    if z > 0.0 {
+    if magnitude(z) < 0.5 {
+        value = first_atan_quotient(z);
+    } else if z > 0.0 {
         value = real_atan(root) / root;
     } else {
         // log((1 + r)/√(1 - r²))

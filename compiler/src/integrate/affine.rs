@@ -17,6 +17,20 @@ const FAR: f64 = 1e6;
 /// Below it a number counts as 0 where its logarithm is multiplied by 0.
 const TINY: f64 = 1e-37;
 
+/// An affine function that is not negative in the middle.
+#[derive(Clone, Copy)]
+struct Upright {
+    zero: Id,
+    mid: Id,
+    /// Half the difference of the ends.
+    growth: Id,
+    /// |growth|
+    size: Id,
+    ends: [Id; 2],
+    /// The lesser end, mid - |growth|.
+    least: Id,
+}
+
 impl Integrator<'_> {
     /// ∫ of a polynomial times a power of x.
     pub(super) fn affine_power(
@@ -70,10 +84,17 @@ impl Integrator<'_> {
     /// ratio of both ends and φ(y) = (e^y - 1)/y: one formula for every exponent, -1 included.
     fn power_of_affine(&mut self, x: Affine, exponent: Id) -> Id {
         let w = mul(self.g, x.slope, self.path.half);
+        let upright = self.upright(x, w);
+        let top = if_less(
+            self.g,
+            upright.growth,
+            upright.zero,
+            upright.ends[0],
+            upright.ends[1],
+        );
+        let top = call(self.g, Prim::Abs, top);
+        let ratio = self.g.div(upright.size, top);
         let [w, mid] = [w, x.mid].map(|v| call(self.g, Prim::Abs, v));
-        let sizes = x.ends.map(|v| call(self.g, Prim::Abs, v));
-        let top = self.g.apply(Prim::Max, &sizes);
-        let ratio = self.g.div(w, top);
         let ratio = scale(self.g, -2.0, ratio);
         let all = self.g.real(-1.0);
         let ratio = self.g.apply(Prim::Max, &[ratio, all]);
@@ -212,16 +233,33 @@ impl Integrator<'_> {
         }
     }
 
+    /// x or -x, whichever is not negative in the middle, with w = x' h. One comparison chooses the sign and one the lesser
+    /// end, so that derivatives are right where both ends are the same.
+    fn upright(&mut self, x: Affine, w: Id) -> Upright {
+        let zero = self.g.real(0.0);
+        let [mid, growth, low, high] = [x.mid, w, x.ends[0], x.ends[1]].map(|v| {
+            let back = self.g.neg(v);
+            if_less(self.g, x.mid, zero, back, v)
+        });
+        let falling = self.g.neg(growth);
+        Upright {
+            zero,
+            mid,
+            growth,
+            size: if_less(self.g, growth, zero, falling, growth),
+            ends: [low, high],
+            least: if_less(self.g, growth, zero, high, low),
+        }
+    }
+
     /// ∫ sech x = L atan(w y)/w, y = (sinh w/w)/cosh x_m: the difference of two Gudermannians as one angle.
     fn hyperbolic_secant(&mut self, of: Id) -> Id {
         let x = self.affine(of);
         let w = mul(self.g, x.slope, self.path.half);
-        let [w, mid] = [w, x.mid].map(|v| call(self.g, Prim::Abs, v));
-        // y = 2 e^(|w| - |x_m|) φ(-2|w|)/(1 + e^(-2|x_m|)), the exponent being ± the lesser end in size
-        let ends = x.ends.map(|end| call(self.g, Prim::Abs, end));
-        let lesser = self.g.apply(Prim::Min, &ends);
-        let back = self.g.neg(lesser);
-        let difference = if_less(self.g, mid, w, lesser, back);
+        let upright = self.upright(x, w);
+        let (w, mid) = (upright.size, upright.mid);
+        // y = 2 e^(|w| - |x_m|) φ(-2|w|)/(1 + e^(-2|x_m|))
+        let difference = self.g.neg(upright.least);
         let size = call(self.g, Prim::Exp, difference);
         let (wide, steep) = (scale(self.g, -2.0, w), scale(self.g, -2.0, mid));
         let quotient = call(self.g, Prim::Exprel, wide);
@@ -246,13 +284,15 @@ impl Integrator<'_> {
     fn square_of_secant(&mut self, of: Id) -> Id {
         let x = self.affine(of);
         let w = mul(self.g, x.slope, self.path.half);
-        let w = call(self.g, Prim::Abs, w);
-        let sizes = x.ends.map(|end| call(self.g, Prim::Abs, end));
+        let upright = self.upright(x, w);
+        let (w, zero) = (upright.size, upright.zero);
+        let sizes = upright.ends.map(|end| {
+            let size = call(self.g, Prim::Abs, end);
+            if_less(self.g, upright.least, zero, size, end)
+        });
         // 2|w| - |x₀| - |x₁| is 0 where x changes its sign, else -2 times the lesser of both
-        let (mid, zero) = (call(self.g, Prim::Abs, x.mid), self.g.real(0.0));
-        let lesser = self.g.apply(Prim::Min, &sizes);
-        let beside = scale(self.g, -2.0, lesser);
-        let exponent = if_less(self.g, mid, w, zero, beside);
+        let beside = scale(self.g, -2.0, upright.least);
+        let exponent = if_less(self.g, upright.least, zero, zero, beside);
         let size = call(self.g, Prim::Exp, exponent);
         let wide = scale(self.g, -4.0, w);
         let quotient = call(self.g, Prim::Exprel, wide);
@@ -329,11 +369,9 @@ impl Integrator<'_> {
     fn logistic(&mut self, of: Id) -> Id {
         let x = self.affine(of);
         let w = mul(self.g, x.slope, self.path.half);
-        let w = call(self.g, Prim::Abs, w);
-        let (low, high) = (
-            self.g.apply(Prim::Min, &x.ends),
-            self.g.apply(Prim::Max, &x.ends),
-        );
+        let (zero, falling) = (self.g.real(0.0), self.g.neg(w));
+        let [low, high] = [0, 1].map(|k| if_less(self.g, w, zero, x.ends[1 - k], x.ends[k]));
+        let w = if_less(self.g, w, zero, falling, w);
         let [from, to] = [low, high].map(|end| call(self.g, Prim::Log1pExp, end));
         let width = scale(self.g, 2.0, w);
         let difference = self.g.sub(to, from);

@@ -16,7 +16,7 @@ pub const MAX_DEGREE_BESIDE_POWER: u32 = 12;
 /// Nodes on intervals whose nearest singularity is 2h from the middle: (2 + √3)⁻²⁴ is 2e-14.
 pub(super) const NEAR_NODES: usize = 12;
 /// Below it a quadratic counts as 0 where its logarithm is multiplied by 0.
-const TINY: f64 = 1e-37;
+pub(super) const TINY: f64 = 1e-37;
 
 /// A quadratic with what its rules share.
 #[derive(Clone, Copy)]
@@ -25,9 +25,13 @@ pub(super) struct Bowl {
     /// a h²
     pub reach: Id,
     /// Length of the interval with its sign.
-    length: Id,
+    pub length: Id,
     /// Values at both ends; what is below 0 by a rounding is 0.
     pub ends: [Id; 2],
+    /// Whether it is known to be nowhere negative.
+    pub is_sum_of_squares: bool,
+    /// Whether a is known to be not negative.
+    opens_up: bool,
 }
 
 impl Integrator<'_> {
@@ -63,6 +67,7 @@ impl Integrator<'_> {
             (-1, 0) => Ok((self.reciprocal_root(&bowl), Rule::ReciprocalRoot)),
             (1, 0) => Ok((self.root_alone(&bowl), Rule::Root)),
             (-3, 0) => Ok((self.reciprocal_cube(&bowl), Rule::ReciprocalCube)),
+            (-4, 0) => Ok((self.reciprocal_square(&bowl), Rule::ReciprocalSquare)),
             (..=-3, m) if i64::from(m) <= i64::from(-twice - 2) => {
                 let k = twice.unsigned_abs().saturating_sub(2);
                 Ok((self.equiangular(&bowl, polynomials, k), Rule::Equiangular))
@@ -132,6 +137,8 @@ impl Integrator<'_> {
             reach: mul(self.g, q.a, square_half),
             length: self.length_of_path(),
             ends,
+            is_sum_of_squares: self.is_sum_of_squares(base),
+            opens_up: self.opens_up(base),
         }
     }
 
@@ -139,26 +146,46 @@ impl Integrator<'_> {
     fn near_or(&mut self, bowl: &Bowl, integrand: Id, degree: u32, far: Id) -> Id {
         let near = self.gauss(integrand, NEAR_NODES + degree.div_ceil(2) as usize);
         let reach = call(self.g, Prim::Abs, bowl.reach);
-        let limit = scale(self.g, 0.25, bowl.q.c);
+        let mut limit = scale(self.g, 0.25, bowl.q.c);
+        if !bowl.is_sum_of_squares {
+            limit = call(self.g, Prim::Abs, limit);
+        }
         if_less(self.g, reach, limit, near, far)
     }
 
-    /// ∫ 1/q = L atan2(√(D L²), E)/√(D L²), which is one formula through D = 0.
-    pub(super) fn reciprocal(&mut self, bowl: &Bowl) -> Id {
-        let e = bowl.q.chord;
+    /// D L²
+    pub(super) fn width_of_triangle(&mut self, bowl: &Bowl) -> Id {
         let square_length = square(self.g, bowl.length);
-        let p = mul(self.g, bowl.q.discriminant, square_length);
-        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, e]);
-        mul(self.g, bowl.length, quotient)
+        mul(self.g, bowl.q.discriminant, square_length)
     }
 
-    fn roots(&mut self, bowl: &Bowl) -> ([Id; 2], Id) {
+    /// The sign of q in the middle, which is that of all of an integral that has a value, 1 where it is known.
+    pub(super) fn sign_of(&mut self, bowl: &Bowl) -> Id {
+        let one = self.g.real(1.0);
+        if bowl.is_sum_of_squares {
+            return one;
+        }
+        let (zero, less) = (self.g.real(0.0), self.g.real(-1.0));
+        if_less(self.g, bowl.q.c, zero, less, one)
+    }
+
+    /// ∫ 1/q = L atan2(√(D L²), E)/√(D L²), which is one formula through D = 0; of -q where q is negative.
+    pub(super) fn reciprocal(&mut self, bowl: &Bowl) -> Id {
+        let sign = self.sign_of(bowl);
+        let e = mul(self.g, sign, bowl.q.chord);
+        let p = self.width_of_triangle(bowl);
+        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, e]);
+        let length = mul(self.g, sign, bowl.length);
+        mul(self.g, length, quotient)
+    }
+
+    pub(super) fn roots(&mut self, bowl: &Bowl) -> ([Id; 2], Id) {
         let roots = bowl.ends.map(|q| call(self.g, Prim::Sqrt, q));
         (roots, self.g.add(roots[0], roots[1]))
     }
 
     /// r₀ r₁ + E, which is D L²/(r₀ r₁ - E) where E < 0.
-    fn width(&mut self, bowl: &Bowl, roots: [Id; 2]) -> Id {
+    pub(super) fn width(&mut self, bowl: &Bowl, roots: [Id; 2]) -> Id {
         let e = bowl.q.chord;
         let product = mul(self.g, roots[0], roots[1]);
         let sum = add(self.g, product, e);
@@ -170,9 +197,12 @@ impl Integrator<'_> {
         if_less(self.g, e, zero, quotient, sum)
     }
 
-    /// ∫ 1/√q = 2 L atan2(√(-a) L, r₀ + r₁)/(√(-a) L), and where E < 0 the logarithm that this is,
+    /// Of q of any curvature: ∫ 1/√q = 2 L atan2(√(-a) L, r₀ + r₁)/(√(-a) L), and where E < 0 the logarithm that this is,
     /// (2/√a) log((r₀ + r₁ + √a L)/√(2 (r₀ r₁ + E))).
     fn reciprocal_root(&mut self, bowl: &Bowl) -> Id {
+        if bowl.opens_up {
+            return self.reciprocal_root_of_bowl(bowl);
+        }
         let (roots, sum) = self.roots(bowl);
         let square_length = square(self.g, bowl.length);
         let p = mul(self.g, bowl.q.a, square_length);
@@ -200,9 +230,12 @@ impl Integrator<'_> {
         mul(self.g, sign, value)
     }
 
-    /// ∫ √q = L (S/4 + c G - (r₁ - r₀)² A₁(-z)/(4 S)), z = a L²/S², S = r₀ + r₁, G the quotient of the reciprocal root;
+    /// Of q of any curvature: ∫ √q = L (S/4 + c G - (r₁ - r₀)² A₁(-z)/(4 S)), z = a L²/S², S = r₀ + r₁, G the quotient of the reciprocal root;
     /// where E < 0 by parts.
     fn root_alone(&mut self, bowl: &Bowl) -> Id {
+        if bowl.opens_up {
+            return self.root_of_bowl(bowl);
+        }
         let (roots, sum) = self.roots(bowl);
         let floor = self.g.real(1e-12);
         let safe = self.g.apply(Prim::Max, &[sum, floor]);
@@ -281,6 +314,9 @@ impl Integrator<'_> {
         let floor = self.g.real(TINY);
         let least = self.g.apply(Prim::Max, &[least, floor]);
         let width = self.g.apply(Prim::Max, &[width, least]);
+        if bowl.opens_up {
+            return self.by_width(bowl, sum, width);
+        }
         let log = self.log_form(bowl, sum, width);
         let square_length = square(self.g, bowl.length);
         let p = mul(self.g, bowl.q.a, square_length);

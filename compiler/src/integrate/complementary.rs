@@ -41,7 +41,9 @@ impl Integrator<'_> {
 
     /// ∫ erfc from |x| to ∞.
     fn falling_tail(&mut self, x: Id) -> Id {
-        let size = call(self.g, Prim::Abs, x);
+        // its derivative at 0 is that from the right
+        let (zero, back) = (self.g.real(0.0), self.g.neg(x));
+        let size = if_less(self.g, x, zero, back, x);
         let bell = call(self.g, Prim::Gauss, size);
         let scaled = self.g.apply(Prim::Erfcx(1), &[size]);
         mul(self.g, bell, scaled)

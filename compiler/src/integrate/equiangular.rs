@@ -1,8 +1,8 @@
 //! Negative powers of quadratics, alone and beside polynomials, over the angle at their zero.
 
 use super::Integrator;
-use super::algebraic::Bowl;
-use super::arithmetic::{add, call, mul, scale, square, sub};
+use super::algebraic::{Bowl, TINY};
+use super::arithmetic::{add, call, if_less, mul, scale, square, sub};
 use super::exponential::NEAR;
 use super::legendre::nodes_for_exponential;
 use crate::ir::{Id, Prim};
@@ -17,7 +17,7 @@ pub(super) struct Least {
 impl Integrator<'_> {
     /// ∫ p q^(n/2) dt = ∫ p q^(n/2 + 1) du by u = ∫ dt/q from the place of the least q in the interval, which is the
     /// angle under which the way is seen from the zero of q, over √D. There t - t₀ = c u sinc(√D u)/B and q = c/B²
-    /// with B = cos(√D u) - b u sinc(√D u), c and b the value and half the slope of q at that place: what remains is
+    /// with B = cos(√D u) - b u sinc(√D u), hyperbolic where D < 0, c and b the value and half the slope of q at that place: what remains is
     /// a polynomial in sin and cos of degree k = -n - 2, for which nodes over the angle are enough.
     ///
     /// Kulla and Fajardo, "Importance sampling techniques for path tracing in participating media", 2012, for the map.
@@ -59,7 +59,14 @@ impl Integrator<'_> {
     ) -> Id {
         let (sum, difference) = (self.g.add(ends[0], ends[1]), self.g.sub(ends[1], ends[0]));
         let (middle, reach) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, difference));
-        let root = call(self.g, Prim::Sqrt, bowl.q.discriminant);
+        let size = if bowl.is_sum_of_squares {
+            // where D is 0 it is least, and its root has no derivative
+            let floor = self.g.real(TINY);
+            self.g.apply(Prim::Max, &[bowl.q.discriminant, floor])
+        } else {
+            call(self.g, Prim::Abs, bowl.q.discriminant)
+        };
+        let root = call(self.g, Prim::Sqrt, size);
         let one = self.g.real(1.0);
         let product = polynomials
             .iter()
@@ -77,10 +84,8 @@ impl Integrator<'_> {
                 let offset = scale(self.g, side * node.place, reach);
                 let u = add(self.g, middle, offset);
                 let turn = mul(self.g, root, u);
-                let (sine, cosine) = (
-                    call(self.g, Prim::Sinc, turn),
-                    call(self.g, Prim::Cos, turn),
-                );
+                let sine = self.round_or_not(bowl, Prim::Sinc, Prim::Sinhc, turn);
+                let cosine = self.round_or_not(bowl, Prim::Cos, Prim::Cosh, turn);
                 let step = mul(self.g, u, sine);
                 let down = mul(self.g, least.slope, step);
                 let base = sub(self.g, cosine, down);
@@ -99,6 +104,17 @@ impl Integrator<'_> {
         let size = self.half_power(least.value, exponent);
         let mean = self.g.div(sum, size);
         mul(self.g, reach, mean)
+    }
+
+    /// A function of √D u, and the one that it is of √-D u where D may be negative.
+    fn round_or_not(&mut self, bowl: &Bowl, round: Prim, other: Prim, turn: Id) -> Id {
+        let value = call(self.g, round, turn);
+        if bowl.is_sum_of_squares {
+            return value;
+        }
+        let grown = call(self.g, other, turn);
+        let zero = self.g.real(0.0);
+        if_less(self.g, bowl.q.discriminant, zero, grown, value)
     }
 
     /// The place of the least q in the interval, and ∫ dt/q from there to both ends.
@@ -120,11 +136,14 @@ impl Integrator<'_> {
         let back = self.g.neg(whole);
         let offsets = self.offsets(bowl);
         let beside = [[zero, back], [whole, zero]];
+        let sign = self.sign_of(bowl);
+        let size = mul(self.g, sign, depth);
         let angles = [0, 1].map(|k| {
             let s = offsets[k];
             let square_s = square(self.g, s);
             let p = mul(self.g, q.discriminant, square_s);
-            let quotient = self.g.apply(Prim::Atan2Quotient, &[p, depth]);
+            let quotient = self.g.apply(Prim::Atan2Quotient, &[p, size]);
+            let quotient = mul(self.g, sign, quotient);
             let around = mul(self.g, s, quotient);
             choose(self, around, beside[k])
         });

@@ -217,11 +217,14 @@ impl Integrator<'_> {
         scale(self.g, of.scale, mean)
     }
 
-    /// e^(α + |βh|) φ(-2|βh|): the greater end times a number in (0, 1].
+    /// e^(α + |βh|) φ(-2|βh|): the greater end times a number in (0, 1]. One comparison chooses the end and the sign, so
+    /// that the derivative is right where both ends are the same.
     pub(super) fn mean_of_exponential(&mut self, e: Affine) -> Id {
+        let zero = self.g.real(0.0);
         let change = mul(self.g, e.slope, self.path.half);
-        let size = call(self.g, Prim::Abs, change);
-        let top = self.g.apply(Prim::Max, &e.ends);
+        let back = self.g.neg(change);
+        let size = if_less(self.g, change, zero, back, change);
+        let top = if_less(self.g, change, zero, e.ends[0], e.ends[1]);
         let (top, twice) = (call(self.g, Prim::Exp, top), scale(self.g, -2.0, size));
         let quotient = call(self.g, Prim::Exprel, twice);
         mul(self.g, top, quotient)
@@ -232,14 +235,16 @@ impl Integrator<'_> {
         let half = self.path.half;
         let zero = self.g.real(0.0);
         let (w, v) = (mul(self.g, e.slope, half), mul(self.g, phase.slope, half));
-        let back = self.g.neg(v);
+        // the phase at the end where the exponential is greater
+        let turn = if_less(self.g, w, zero, phase.ends[0], phase.ends[1]);
+        let top = if_less(self.g, w, zero, e.ends[0], e.ends[1]);
+        let [back, falling] = [v, w].map(|x| self.g.neg(x));
         let v = if_less(self.g, w, zero, back, v);
-        let w = call(self.g, Prim::Abs, w);
+        let w = if_less(self.g, w, zero, falling, w);
         let twice = [w, v].map(|x| scale(self.g, -2.0, x));
         let argument = self.g.apply(Prim::Complex, &twice);
         let quotient = call(self.g, Prim::Exprel, argument);
         let [re, im] = [Prim::Re, Prim::Im].map(|part| call(self.g, part, quotient));
-        let (top, turn) = (self.g.apply(Prim::Max, &e.ends), add(self.g, phase.mid, v));
         let size = call(self.g, Prim::Exp, top);
         let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, turn));
         let mixed = if prim == Prim::Sin {

@@ -3,6 +3,7 @@
 use super::{Integral, Otherwise, Path, Problem, Reason, integrate};
 use crate::formula::{Formula, Input};
 use crate::ir::{Graph, Id, Op, Ty, transcribe};
+use crate::stable::{self, Rewrites};
 use crate::types::Type;
 
 /// Inputs of the integral of a field: origin, direction, and both ends.
@@ -68,6 +69,12 @@ pub fn field_integral(formula: &Formula, otherwise: Otherwise) -> Result<FieldIn
     })
 }
 
+/// The stability rewrites of a closed form. Differences of products are formed as the rules of integration have them: a term
+/// at a far end may be the product of a large and a tiny number, of which the rewrite would take differences.
+pub(crate) fn of_integrals(rewrites: Rewrites) -> Rewrites {
+    rewrites.without(stable::Rule::Products)
+}
+
 impl FieldIntegral {
     /// The integral as a function of its eight inputs, to be evaluated or written as a shader.
     #[must_use]
@@ -90,7 +97,7 @@ impl FieldIntegral {
             value: value.into(),
             ty: Type::Real,
             span: of.span,
-            rewrites: of.rewrites,
+            rewrites: of_integrals(of.rewrites),
             derived: None,
         }
     }

@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use super::arithmetic::{add, call, if_less, mul, scale, square};
 use super::exponential::{NEAR, Parts};
 use super::legendre::nodes_for_exponential;
+use super::path::Body;
 use super::quadratic::Quadratic;
 use super::rule::Rule;
 use super::term::Term;
@@ -132,9 +133,9 @@ impl Integrator<'_> {
         self.g.add(slope, curve)
     }
 
-    /// Both sides of the centre by repeated integration by parts from their ends, ∫ₓ^∞ p e^(-u²) du = Σ p⁽ⁿ⁾(x)
-    /// (√π/2) iⁿerfc x (NIST DLMF 7.18), and nodes of the integrand where the exponent changes by less than the
-    /// degree and 2.
+    /// The tails beyond both ends by repeated integration by parts, ∫ₓ^∞ p e^(-u²) du = Σ p⁽ⁿ⁾(x) (√π/2) iⁿerfc x (NIST DLMF
+    /// 7.18), from one another or both from the whole line, and nodes of the integrand where the exponent changes by
+    /// less than the degree and 2.
     fn moments_of_gaussian(
         &mut self,
         q: &Quadratic,
@@ -144,38 +145,36 @@ impl Integrator<'_> {
     ) -> Id {
         let half = call(self.g, Prim::Abs, self.path.half);
         let (_, rate, places) = self.in_widths(q, LEAST_WIDTH_BESIDE);
-        let foot = self.g.div(q.b, q.a);
-        let foot = self.g.neg(foot);
-        let depth = self.g.div(q.discriminant, q.a);
         let one = self.g.real(1.0);
         let mut derivatives = vec![polynomials.iter().fold(one, |p, &r| mul(self.g, p, r))];
         for _ in 0..degree {
             let last = derivatives[derivatives.len() - 1];
             derivatives.push(self.slope(last));
         }
-        let zero = self.g.real(0.0);
-        let mut sum = zero;
-        let back = self.g.neg(self.path.half);
-        for (which, s) in [(0, back), (1, self.path.half)] {
-            for side in [1.0, -1.0] {
-                // on this side of the centre the tail from the nearer end counts, less that from the farther one
-                let distance = scale(self.g, side, places[which]);
-                let is_beyond = self.g.apply(Prim::Less, &[zero, distance]);
-                let x = self.g.apply(Prim::Max, &[distance, zero]);
-                let s = self.g.apply(Prim::Select, &[is_beyond, s, foot]);
-                let exponent = self
-                    .g
-                    .apply(Prim::Select, &[is_beyond, q.ends[which], depth]);
-                let values = self.at(&derivatives, s);
-                let tail = self.tail_of(&values, x, rate, side);
-                let fall = self.g.neg(exponent);
-                let size = call(self.g, Prim::Exp, fall);
-                let part = mul(self.g, size, tail);
-                let sign = if which == 0 { side } else { -side };
-                let part = scale(self.g, sign, part);
-                sum = add(self.g, sum, part);
-            }
-        }
+        let (zero, less) = (self.g.real(0.0), self.g.real(-1.0));
+        // on which side of the centre the ends are
+        let sides = places.map(|u| if_less(self.g, u, zero, less, one));
+        let leaves = self.path.coordinates.iter().map(|c| c.leaf);
+        let body = Body::new(self.g, &derivatives, leaves);
+        let tails = [0, 1].map(|which| {
+            let end = self.path.end(self.g, which);
+            let values = body.at(self.g, &end);
+            let x = call(self.g, Prim::Abs, places[which]);
+            let tail = self.tail_of(&values, x, rate, sides[which]);
+            let fall = self.g.neg(q.ends[which]);
+            let size = call(self.g, Prim::Exp, fall);
+            let part = mul(self.g, size, tail);
+            mul(self.g, sides[which], part)
+        });
+        let beyond = self.g.sub(tails[0], tails[1]);
+        let whole = self.whole_gaussian(q, &derivatives, rate);
+        let across = self.g.sub(sides[1], sides[0]);
+        let across = scale(self.g, 0.5, across);
+        let whole = self.g.mul(across, whole);
+        // where both are on one side the whole may be too large a number
+        let product = self.g.mul(sides[0], sides[1]);
+        let whole = if_less(self.g, product, zero, whole, zero);
+        let sum = self.g.add(whole, beyond);
         let far = self.g.div(sum, rate);
         let limit = f64::from(degree) + 2.0;
         let near = self.gauss(
@@ -187,15 +186,35 @@ impl Integrator<'_> {
         if_less(self.g, limit, change, far, near)
     }
 
-    /// (√π/2) Σ (±1)ⁿ p⁽ⁿ⁾/rateⁿ e^(x²) iⁿerfc x
-    pub(super) fn tail_of(&mut self, values: &[Id], x: Id, rate: Id, side: f64) -> Id {
+    /// ∫ over the whole line: √π e^(-D/a) Σ p⁽²ⁿ⁾/rate²ⁿ i²ⁿerfc 0 in the centre, i²ⁿerfc 0 = 1/(4ⁿ n!).
+    pub(super) fn whole_gaussian(&mut self, q: &Quadratic, derivatives: &[Id], rate: Id) -> Id {
+        let values = self.at_place(derivatives, q.foot);
+        let mut sum = self.g.real(0.0);
+        let mut weight = PI.sqrt();
+        for (n, &value) in (0_i32..).zip(&values).step_by(2) {
+            let power = self.g.apply(Prim::PowInt(n), &[rate]);
+            let part = self.g.div(value, power);
+            let part = scale(self.g, weight, part);
+            sum = add(self.g, sum, part);
+            weight /= 2.0 * f64::from(n) + 4.0;
+        }
+        let depth = self.g.div(q.discriminant, q.a);
+        let fall = self.g.neg(depth);
+        let size = call(self.g, Prim::Exp, fall);
+        mul(self.g, size, sum)
+    }
+
+    /// (√π/2) Σ (±1)ⁿ p⁽ⁿ⁾/rateⁿ e^(x²) iⁿerfc x, the sign that of the side.
+    pub(super) fn tail_of(&mut self, values: &[Id], x: Id, rate: Id, side: Id) -> Id {
         let mut sum = self.g.real(0.0);
         for (n, &value) in (0_u8..).zip(values) {
             let integral = self.g.apply(Prim::Erfcx(n), &[x]);
             let power = self.g.apply(Prim::PowInt(n.into()), &[rate]);
             let value = self.g.div(value, power);
-            let part = mul(self.g, value, integral);
-            let part = scale(self.g, if n % 2 == 1 { side } else { 1.0 }, part);
+            let mut part = mul(self.g, value, integral);
+            if n % 2 == 1 {
+                part = mul(self.g, side, part);
+            }
             sum = add(self.g, sum, part);
         }
         scale(self.g, 0.5 * PI.sqrt(), sum)

@@ -10,6 +10,7 @@ mod affine;
 mod algebraic;
 mod arithmetic;
 mod bessel;
+mod bowl;
 mod breaks;
 mod class;
 mod complementary;
@@ -45,6 +46,7 @@ pub use density::{Density, Values};
 pub use expand::{MAX_FACTORS, MAX_TERMS};
 pub use explain::{Explanation, Rest, SAMPLE, Told, explain};
 pub use exponential::MAX_DEGREE_BESIDE;
+pub(crate) use field::of_integrals;
 pub use field::{FieldIntegral, INPUTS, field_integral};
 pub use gaussian::MAX_DEGREE_BESIDE_GAUSSIAN;
 pub use infinite::improper;
@@ -419,14 +421,6 @@ impl<'g> Integrator<'g> {
         let whole = self.path.clone();
         let seen = whole.from_origin(self.g);
         let values = seen.point(self.g, t);
-        body.at(self.g, &values)
-    }
-
-    /// Expressions at s.
-    fn at(&mut self, roots: &[Id], s: Id) -> SmallVec<[Id; 4]> {
-        let leaves = self.path.coordinates.iter().map(|c| c.leaf);
-        let body = Body::new(self.g, roots, leaves);
-        let values = self.path.point(self.g, s);
         body.at(self.g, &values)
     }
 

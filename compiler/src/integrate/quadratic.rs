@@ -132,6 +132,16 @@ impl Integrator<'_> {
             && found.constant.iter().all(|c| positive(&c.0))
     }
 
+    /// Whether an expression is a sum of squares with constant weights that are not negative, and of what is of degree 1
+    /// or 0: its curvature is not negative.
+    pub(super) fn opens_up(&mut self, id: Id) -> bool {
+        let Some(found) = self.squares(id) else {
+            return false;
+        };
+        let mut weights = found.squares.iter().map(|s| s.0);
+        weights.all(|w| self.g.as_real(w).is_some_and(|w| w >= 0.0))
+    }
+
     /// a c - b² from the squares.
     fn discriminant(&mut self, found: &Squares) -> Option<Id> {
         if found.squares.len() > MAX_SQUARES {

@@ -16,6 +16,7 @@ pub enum Rule {
     ReciprocalRoot,
     Root,
     ReciprocalCube,
+    ReciprocalSquare,
     Equiangular,
     PolynomialByPower,
     LogQuadratic,
@@ -47,7 +48,7 @@ pub struct Record {
 }
 
 /// Every rule, in the order of [`Rule`].
-pub static RULES: [Record; 24] = [
+pub static RULES: [Record; 25] = [
     Record {
         rule: Rule::Constant,
         name: "constant",
@@ -117,15 +118,16 @@ pub static RULES: [Record; 24] = [
     Record {
         rule: Rule::ReciprocalRoot,
         name: "reciprocal root of a quadratic",
-        equation: "∫ 1/√q = 2L atan2(√-a L, S)/(√-a L), S = r₀ + r₁; (2/√a) log((S + √a L)/√(2(r₀r₁ + E))) \
-                   where E < 0",
+        equation: "∫ 1/√q = (1/√a) log(1 + √a L (S + √a L)/(r₀r₁ + E)), S = r₀ + r₁; \
+                   2L atan2(√-a L, S)/(√-a L) where a may be negative",
         bound: "always; infinite where q has a zero in the interval",
         source: "NIST DLMF 4.37, 4.40",
     },
     Record {
         rule: Rule::Root,
         name: "root of a quadratic",
-        equation: "∫ √q = L (S/4 + q(m) G - (r₁ - r₀)² A₁/(4S)), G = atan2(√-a L, S)/(√-a L); by parts where E < 0",
+        equation: "∫ √q = L (S/4 + (q(m) + D u k)/S), u = L²/S², k = (artanh(√z)/√z - 1)/z at z = a u; \
+                   L (S/4 + q(m) G - (r₁ - r₀)² A₁/(4S)), G = atan2(√-a L, S)/(√-a L), where a may be negative",
         bound: "always",
         source: "NIST DLMF 4.40; Gradshteyn and Ryzhik 2.262",
     },
@@ -137,10 +139,18 @@ pub static RULES: [Record; 24] = [
         source: "Gradshteyn and Ryzhik 2.264.5",
     },
     Record {
+        rule: Rule::ReciprocalSquare,
+        name: "squared reciprocal of a quadratic",
+        equation: "∫ 1/q² = (L/q₀q₁) (1 + (a/2D) (G q₀q₁ - E)), G = atan2(√(DL²), E)/√(DL²); with \
+                   (aL²/2E) (1 - (1 + z) A₁(z)) for z = DL²/E² below 1",
+        bound: "always; infinite where q has a zero in the interval",
+        source: "Gradshteyn and Ryzhik 2.172, 2.173",
+    },
+    Record {
         rule: Rule::Equiangular,
         name: "negative power of a quadratic",
         equation: "∫ p q^(-n) = ∫ p q^(1-n) dθ/√D over the angle at the zero of q, by nodes",
-        bound: "exponents -2, -5/2, -3 …, beside polynomials of degree up to 2n - 2; right to 1e-12",
+        bound: "exponents -5/2, -3 …, and -2 beside polynomials of degree up to 2n - 2; right to 1e-12",
         source: "Kulla and Fajardo, Importance sampling techniques for path tracing in participating media, 2012",
     },
     Record {

@@ -114,23 +114,17 @@ impl Integrator<'_> {
             let last = derivatives[derivatives.len() - 1];
             derivatives.push(self.slope(last));
         }
-        let (zero, back) = (self.g.real(0.0), self.g.neg(place));
-        let here = self.at(&derivatives, zero);
-        let centre = self.at_place(&derivatives, q.foot);
-        let [beyond, before] = [place, back].map(|x| self.g.apply(Prim::Max, &[x, zero]));
-        let depth = self.g.div(q.discriminant, q.a);
-        let [there, highest] = [q.c, depth].map(|e| {
-            let fall = self.g.neg(e);
-            call(self.g, Prim::Exp, fall)
-        });
-        let falling = self.tail_of(&here, beyond, rate, 1.0);
-        let falling = mul(self.g, there, falling);
-        let sides = [1.0, -1.0].map(|side| self.tail_of(&centre, zero, rate, side));
-        let whole = self.g.add(sides[0], sides[1]);
-        let whole = mul(self.g, highest, whole);
-        let less = self.tail_of(&here, before, rate, -1.0);
-        let less = mul(self.g, there, less);
-        let around = self.g.sub(whole, less);
+        let zero = self.g.real(0.0);
+        let here: Vec<Id> = derivatives.iter().map(|&d| self.at_middle(d)).collect();
+        let less = self.g.real(-1.0);
+        let side = if_less(self.g, place, zero, less, one);
+        let distance = call(self.g, Prim::Abs, place);
+        let beyond = self.tail_of(&here, distance, rate, side);
+        let fall = self.g.neg(q.c);
+        let there = call(self.g, Prim::Exp, fall);
+        let falling = mul(self.g, there, beyond);
+        let whole = self.whole_gaussian(&q, &derivatives, rate);
+        let around = self.g.sub(whole, falling);
         let value = if_less(self.g, place, zero, around, falling);
         let value = self.g.div(value, rate);
         let rule = if degree == 0 {

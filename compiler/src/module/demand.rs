@@ -7,7 +7,7 @@ use super::reciprocal::reciprocal;
 use super::substitute::substitute;
 use crate::derive::{ComplexVariable, forward, gradient, jet};
 use crate::formula::Formula;
-use crate::integrate::{Otherwise, field_integral};
+use crate::integrate::{Otherwise, field_integral, of_integrals};
 use crate::ir::{Graph, Id, Ty};
 use crate::link::{Linker, Provider};
 use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
@@ -89,7 +89,11 @@ impl Provider for Demand<'_> {
             precision: self.precision,
             wide: false,
         };
-        let (graph, roots) = finish(answer.graph, answer.roots, self.formula.rewrites);
+        let rewrites = match name {
+            "field_integral" => of_integrals(self.formula.rewrites),
+            _ => self.formula.rewrites,
+        };
+        let (graph, roots) = finish(answer.graph, answer.roots, rewrites);
         lower(&graph, &roots, interface, linker).map(Some)
     }
 }

@@ -274,6 +274,12 @@ impl Rewrites {
         Self(rules.iter().fold(0, |bits, &rule| bits | Self::bit(rule)))
     }
 
+    /// All but this one.
+    #[must_use]
+    pub fn without(self, rule: Rule) -> Self {
+        Self(self.0 & !Self::bit(rule))
+    }
+
     /// Whether a rule is among them.
     #[must_use]
     pub fn has(self, rule: Rule) -> bool {

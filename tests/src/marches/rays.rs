@@ -4,15 +4,13 @@ use pullback_compiler::formula::Formula;
 use pullback_compiler::{Evaluator, What};
 use pullback_runtime::{Error, Size};
 
+use crate::quadrature::{Exact, adaptive};
+
 /// How far from a tie an end of a ray must be before it is rounded, in 1/1024, so that a device's division does not
 /// decide where it goes.
 const TIE: f64 = 0.01;
 /// Panels of a ray before the rule adapts, so that nothing narrow falls between the nodes.
 const PANELS: u32 = 32;
-/// How often a panel is halved.
-const DEEPEST: u32 = 40;
-/// How far apart the two rules, and a panel and its halves, may be, as a part of ∫ |f|; what is kept is closer.
-const TOLERANCE: f64 = 1e-10;
 
 /// A ray o + t d, from t = a to t = b.
 #[derive(Clone, Copy, Debug)]
@@ -62,37 +60,6 @@ fn ray(pixel: usize, [x, y]: [f64; 2]) -> Option<Ray> {
     })
 }
 
-/// An integral, and that of the absolute value.
-#[derive(Clone, Copy, Debug)]
-pub struct Exact {
-    /// ∫ f
-    pub value: f64,
-    /// ∫ |f|
-    pub size: f64,
-}
-
-/// Seven nodes of Kronrod's extension of the rule of Lobatto with four, as pairs around the middle, which is the first:
-/// place, weight, and weight in the rule of Lobatto. Both ends are nodes: with inner nodes alone a jump near an end would
-/// not be seen.
-///
-/// Gander and Gautschi, "Adaptive quadrature, revisited", BIT 40, 2000.
-const NODES: [[f64; 3]; 4] = [
-    [0.0, 672.0 / 1470.0, 0.0],
-    [0.447_213_595_499_957_9, 625.0 / 1470.0, 5.0 / 6.0],
-    [0.816_496_580_927_726, 432.0 / 1470.0, 0.0],
-    [1.0, 77.0 / 1470.0, 1.0 / 6.0],
-];
-
-struct Panel {
-    from: f64,
-    to: f64,
-    depth: u32,
-    value: f64,
-    size: f64,
-    /// The two rules apart.
-    apart: f64,
-}
-
 /// The density in f64.
 pub struct Reference {
     evaluator: Evaluator,
@@ -112,60 +79,15 @@ impl Reference {
         Ok(Self { evaluator, out })
     }
 
-    /// The integral along a ray, by the rules of Lobatto and Kronrod on panels that are halved until both agree, and
-    /// their halves with them.
+    /// The integral along a ray.
     pub fn integrate(&mut self, ray: &Ray) -> Exact {
         let [a, b] = ray.ends;
         let width = (b - a) / f64::from(PANELS);
-        let mut open: Vec<Panel> = (0..PANELS)
-            .map(|k| {
-                let from = a + f64::from(k) * width;
-                self.panel(ray, from, from + width, 0)
-            })
+        let places: Vec<f64> = (0..PANELS)
+            .map(|k| a + f64::from(k) * width)
+            .chain([b])
             .collect();
-        let size: f64 = open.iter().map(|panel| panel.size).sum();
-        let mut total = Exact {
-            value: 0.0,
-            size: 0.0,
-        };
-        while let Some(panel) = open.pop() {
-            let middle = 0.5 * (panel.from + panel.to);
-            let halves = [
-                self.panel(ray, panel.from, middle, panel.depth + 1),
-                self.panel(ray, middle, panel.to, panel.depth + 1),
-            ];
-            let value = halves[0].value + halves[1].value;
-            // beside a kink two rules may agree by chance, where the halves do not
-            let apart = panel.apart.max((panel.value - value).abs());
-            if apart <= TOLERANCE * size || panel.depth == DEEPEST {
-                total.value += value;
-                total.size += halves[0].size + halves[1].size;
-            } else {
-                open.extend(halves);
-            }
-        }
-        total
-    }
-
-    fn panel(&mut self, ray: &Ray, from: f64, to: f64, depth: u32) -> Panel {
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let (mut value, mut size, mut coarse) = (0.0, 0.0, 0.0);
-        for (k, [place, fine, lobatto]) in NODES.into_iter().enumerate() {
-            for side in if k == 0 { &[1.0][..] } else { &[-1.0, 1.0] } {
-                let f = self.density(ray, middle + side * half * place);
-                value += fine * f;
-                size += fine * f.abs();
-                coarse += lobatto * f;
-            }
-        }
-        Panel {
-            from,
-            to,
-            depth,
-            value: half * value,
-            size: half * size,
-            apart: half * (value - coarse).abs(),
-        }
+        adaptive(&places, |t| self.density(ray, t))
     }
 
     fn density(&mut self, ray: &Ray, t: f64) -> f64 {

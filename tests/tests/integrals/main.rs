@@ -1,14 +1,18 @@
 //! Integrals along rays against mpmath at 60 digits: tests/oracle/integrals_rays.py.
 
 mod bad_input;
+mod combinations;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod growth;
 mod infinite;
 mod language;
 mod nodes;
+mod peers;
 mod proof;
 mod ridge;
+mod slopes;
+mod stability;
 mod textbook;
 
 use std::fmt::Write as _;

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use pullback_compiler::What;
 use pullback_compiler::formula::Formula;
 use pullback_compiler::integrate::{Otherwise, field_integral};
 use pullback_compiler::lower::Precision;
-use pullback_compiler::{What, compile_function};
 use pullback_runtime::executor::Arithmetic;
 use pullback_tests::accuracy::evaluators::Machine;
+use pullback_tests::stability::textbook;
 
 use super::{formula, points};
 
@@ -45,17 +46,6 @@ const TEXTBOOK: [(&str, &str); 12] = [
         "sqrt(pi)/(2 sqrt(A)) exp(-D/A) erf((A t + B)/sqrt(A))",
     ),
 ];
-
-/// F(b) - F(a) as a function of the ray.
-fn textbook(antiderivative: &str) -> Formula {
-    let text = format!(
-        "f(o: vec3, d: vec3, a: real, b: real) = F(o, d, b) - F(o, d, a)\n\
-         F(o: vec3, d: vec3, t: real) = G(t, o.y + t d.y, d.y, dot(d, d), dot(o, d), dot(o, o))\n\
-         G(t, v, w, A, B, C) = H(t, v, w, A, B, C, A C - B^2, A t^2 + 2 B t + C)\n\
-         H(t, v, w, A, B, C, D, q) = {antiderivative}\n"
-    );
-    compile_function(&text).unwrap_or_else(|e| panic!("{text}: {e:?}"))
-}
 
 /// Rays whose height changes at any rate down to none: the generator is that of Knuth's MMIX.
 fn some_rays(count: usize) -> Vec<Vec<f64>> {

@@ -1,0 +1,273 @@
+//! How far closed forms of ray integrals are off in binary32, class by class, on rays of every kind, against an adaptive
+//! rule in f64 that knows nothing of them.
+
+pub mod classes;
+pub mod rays;
+pub mod tables;
+
+use pullback_compiler::formula::Formula;
+use pullback_compiler::integrate::{Otherwise, field_integral};
+use pullback_compiler::{Evaluator, What, compile, compile_function};
+
+use crate::accuracy::evaluators::{Machine, Point};
+use crate::quadrature::adaptive;
+use classes::Class;
+use rays::{Distance, Ray, Slant};
+
+/// What an error may be, as a part of ∫ |f|.
+pub const BOUND: f64 = 1e-6;
+/// Half a unit in the last place of binary32 beside 1.
+const ROUNDING: f64 = 6e-8;
+/// What is beyond counts as too large for binary32.
+const LARGEST: f64 = 3e37;
+/// What is below counts as 0 in binary32.
+const LEAST: f64 = 1e-37;
+/// Greatest number of panels that a ray is begun with, each of two radians of the fastest wave; where that is not enough it is
+/// left out.
+const PANELS: f64 = 3000.0;
+
+/// What was found on one ray. Errors are parts of ∫ |f|, infinite where the value is no number.
+#[derive(Clone, Copy, Debug)]
+pub struct Outcome {
+    /// The ray.
+    pub ray: Ray,
+    /// ∫ f
+    pub exact: f64,
+    /// What the closed form gives.
+    pub found: f64,
+    /// Its error.
+    pub error: f64,
+    /// How much the exact integral changes where each of the eight numbers of the ray is rounded: the sum of the
+    /// changes. Only known where the error is beyond the bound.
+    pub moved: f64,
+    /// The error where the origin was moved, in f64, to the place nearest to the centre; of origins that are not near.
+    pub shifted: f64,
+    /// The error of the textbook's form, where there is one.
+    pub textbook: f64,
+}
+
+impl Outcome {
+    /// Whether the error is within the bound and as many roundings of the numbers of the ray.
+    #[must_use]
+    pub fn is_within(&self, roundings: f64) -> bool {
+        self.error <= BOUND || roundings > 0.0 && self.error <= BOUND + roundings * self.moved
+    }
+}
+
+/// What was found of a class.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The class.
+    pub class: Class,
+    /// One for each ray on which the integral is a number that binary32 holds.
+    pub outcomes: Vec<Outcome>,
+}
+
+/// The exact integral along a ray.
+#[derive(Clone, Copy, Debug)]
+struct Truth {
+    value: f64,
+    size: f64,
+}
+
+/// The formula of a density.
+///
+/// # Panics
+/// It does not compile.
+#[must_use]
+pub fn formula(text: &str) -> Formula {
+    let program = compile(&format!("f(x, y, z) = {text}")).program;
+    let program = program.unwrap_or_else(|| panic!("{text}"));
+    program.pictures()[0].formula.clone()
+}
+
+/// F(b) - F(a) as a function of the ray, of an antiderivative as [`Class::textbook`] has it.
+///
+/// # Panics
+/// It does not compile.
+#[must_use]
+pub fn textbook(antiderivative: &str) -> Formula {
+    let text = format!(
+        "f(o: vec3, d: vec3, a: real, b: real) = F(o, d, b) - F(o, d, a)\n\
+         F(o: vec3, d: vec3, t: real) = G(t, o.y + t d.y, d.y, dot(d, d), dot(o, d), dot(o, o))\n\
+         G(t, v, w, A, B, C) = H(t, v, w, A, B, C, A C - B^2, A t^2 + 2 B t + C)\n\
+         H(t, v, w, A, B, C, D, q) = {antiderivative}\n"
+    );
+    compile_function(&text).unwrap_or_else(|e| panic!("{text}: {e:?}"))
+}
+
+/// Measures a class on the rays, by the machine.
+///
+/// # Errors
+/// The machine's, in words.
+///
+/// # Panics
+/// A part of the density has no closed form.
+pub fn measure(class: &Class, rays: &[Ray], machine: &Machine) -> Result<Found, String> {
+    let of = formula(class.formula);
+    let made = field_integral(&of, Otherwise::Refuse);
+    let integral = made
+        .unwrap_or_else(|e| panic!("{}: {e:?}", class.formula))
+        .into_formula(&of);
+    let mut evaluator = Evaluator::new(&of, What::Value).map_err(|e| format!("{e:?}"))?;
+    let mut density = |p: &[f64; 3]| {
+        let mut out = [0.0];
+        evaluator.eval(&[], 0.0, 0.0, p, &mut out);
+        out[0]
+    };
+    let exact: Vec<(Ray, Truth)> = rays
+        .iter()
+        .filter_map(|ray| Some((*ray, truth(class, ray, &mut density)?)))
+        .collect();
+    let run = |formula: &Formula, shifted: bool| -> Result<Vec<f64>, String> {
+        let points: Vec<Point> = exact
+            .iter()
+            .map(|(ray, _)| point(&if shifted { ray.shifted() } else { *ray }))
+            .collect();
+        let rows = machine.run(formula, What::Value, &points)?;
+        Ok(rows.iter().map(|row| row[0]).collect())
+    };
+    let own = run(&integral, false)?;
+    let shifted = run(&integral, true)?;
+    let naive = match class.textbook {
+        Some(text) => run(&textbook(text), false)?,
+        None => vec![f64::NAN; exact.len()],
+    };
+    let outcome = |(k, (ray, truth)): (usize, &(Ray, Truth))| Outcome {
+        ray: *ray,
+        exact: truth.value,
+        found: own[k],
+        error: error(own[k], truth),
+        moved: 0.0,
+        shifted: error(shifted[k], truth),
+        textbook: error(naive[k], truth),
+    };
+    let mut outcomes: Vec<Outcome> = exact.iter().enumerate().map(outcome).collect();
+    let beyond: Vec<usize> = (0..exact.len())
+        .filter(|&k| outcomes[k].error > BOUND)
+        .collect();
+    let rays: Vec<Ray> = beyond.iter().map(|&k| exact[k].0).collect();
+    for (k, moved) in beyond.into_iter().zip(movements(&integral, &rays)?) {
+        outcomes[k].moved = moved / exact[k].1.size.max(LEAST);
+    }
+    Ok(Found {
+        class: *class,
+        outcomes,
+    })
+}
+
+fn point(ray: &Ray) -> Point {
+    Point {
+        args: ray.numbers.to_vec(),
+        params: Vec::new(),
+    }
+}
+
+/// What is below the least normal number of the format is 0.
+fn error(found: f64, truth: &Truth) -> f64 {
+    let off = (found - truth.value).abs();
+    if off.is_nan() {
+        f64::INFINITY
+    } else if off < LEAST {
+        0.0
+    } else {
+        off / truth.size.max(LEAST)
+    }
+}
+
+/// How much the integral along each ray changes where each number of the ray is rounded, the sum over the eight.
+fn movements(integral: &Formula, rays: &[Ray]) -> Result<Vec<f64>, String> {
+    let mut points = Vec::new();
+    for ray in rays {
+        points.push(point(ray));
+        for k in 0..8 {
+            let mut moved = *ray;
+            moved.numbers[k] += ROUNDING * moved.numbers[k].abs();
+            points.push(point(&moved));
+        }
+    }
+    let rows = Machine::Reference.run(integral, What::Value, &points)?;
+    let change = |rows: &[Vec<f64>]| {
+        rows[1..]
+            .iter()
+            .map(|row| (row[0] - rows[0][0]).abs())
+            .sum()
+    };
+    Ok(rows.chunks(9).map(change).collect())
+}
+
+/// The integral, where it is a number that binary32 holds and so is f on the way.
+fn truth(class: &Class, ray: &Ray, density: &mut impl FnMut(&[f64; 3]) -> f64) -> Option<Truth> {
+    let places = places(class, ray)?;
+    let (mut greatest, mut low, mut high): (f64, f64, f64) =
+        (0.0, f64::INFINITY, f64::NEG_INFINITY);
+    let exact = adaptive(&places, |t| {
+        let f = density(&ray.at(t));
+        greatest = greatest.max(if f.is_nan() { f64::INFINITY } else { f.abs() });
+        (low, high) = (low.min(f), high.max(f));
+        f
+    });
+    // a pole: f changes its sign there, or is beyond all that it is elsewhere
+    let has_pole = class.has_poles && (low < 0.0 && high > 0.0 || greatest > 1e6);
+    let is_number = greatest < LARGEST && exact.value.is_finite() && exact.size < LARGEST;
+    let sign = if ray.numbers[6] > ray.numbers[7] {
+        -1.0
+    } else {
+        1.0
+    };
+    (is_number && !has_pole).then_some(Truth {
+        value: sign * exact.value,
+        size: exact.size,
+    })
+}
+
+/// Where panels begin and end: at the ends, around the place nearest to the centre and those where a coordinate is 0, at
+/// distances that grow by the factor 4, and evenly where the density turns.
+fn places(class: &Class, ray: &Ray) -> Option<Vec<f64>> {
+    let n = ray.numbers;
+    let ends = [n[6].min(n[7]), n[6].max(n[7])];
+    let square: f64 = n[3..6].iter().map(|d| d * d).sum();
+    let speed = square.sqrt();
+    let pieces = (class.turns * speed * (ends[1] - ends[0]) / 2.0).ceil();
+    if pieces > PANELS {
+        return None;
+    }
+    let mut out = vec![ends[0], ends[1]];
+    let mut around = |centre: f64, mut step: f64| {
+        while step > 0.0 && step < 1e6 {
+            out.extend([centre - step, centre, centre + step]);
+            step *= 4.0;
+        }
+    };
+    for c in 0..3 {
+        if n[3 + c] != 0.0 {
+            around(-n[c] / n[3 + c], 0.05 / n[3 + c].abs());
+        }
+    }
+    if square > 0.0 {
+        let foot = -(0..3).map(|c| n[c] * n[3 + c]).sum::<f64>() / square;
+        let miss = ray.at(foot).iter().map(|x| x * x).sum::<f64>().sqrt();
+        around(foot, miss.clamp(1e-9, 0.1) / speed);
+    }
+    let width = (ends[1] - ends[0]) / pieces.max(1.0);
+    out.extend((1..pieces as u32).map(|k| ends[0] + f64::from(k) * width));
+    out.retain(|t| (ends[0]..=ends[1]).contains(t));
+    out.sort_by(f64::total_cmp);
+    out.dedup();
+    Some(out)
+}
+
+impl Found {
+    /// The outcomes of origins at this distance.
+    pub fn at(&self, distance: Distance) -> impl Iterator<Item = &Outcome> {
+        self.outcomes
+            .iter()
+            .filter(move |o| o.ray.distance == distance)
+    }
+
+    /// The outcomes of origins that are near, of rays of this slant.
+    pub fn slanted(&self, slant: Slant) -> impl Iterator<Item = &Outcome> {
+        self.at(Distance::Near)
+            .filter(move |o| o.ray.slant == slant)
+    }
+}
