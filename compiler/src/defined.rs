@@ -1,12 +1,12 @@
 //! Functions of the operator table whose values are definitions in the language.
 //!
-//! A row whose form on the GPU is `Gpu::Defined`, or [`DEFINED`](table::DEFINED) on complex numbers, has its value from the definition of the library that is named like
-//! its mnemonic with `_` in front, for reals or for complex numbers; a family gives its order as the last argument. In
+//! A row whose form on the GPU is `Gpu::Defined`, or [`DEFINED`](table::DEFINED) on complex numbers, has its value from the
+//! definition of the library that is named like its mnemonic with `_` in front, for reals or for complex numbers; a family
+//! gives its order as the last argument. In
 //! shaders it is a function of its own, lowered when something calls it, in the tier of the caller; in `f64` its graph is
 //! evaluated. The derivative is the row's, so that no approximation is ever differentiated.
 
-use std::cell::RefCell;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, OnceLock};
 
 use rustc_hash::FxHashMap;
 
@@ -47,23 +47,42 @@ pub struct Definition {
     pub inputs: Vec<Ty>,
 }
 
+/// What is known of an operation, once something has asked for it.
+#[derive(Debug, Default)]
+struct Entry {
+    definition: OnceLock<Option<Arc<Definition>>>,
+    tape: OnceLock<Option<Tape>>,
+}
+
+/// The entry of every operation that the table says is defined.
+fn entry(key: Key) -> Option<&'static Entry> {
+    static ENTRIES: OnceLock<FxHashMap<Key, Entry>> = OnceLock::new();
+    let entries = ENTRIES.get_or_init(|| {
+        let mut all = FxHashMap::default();
+        for prim in table::rows().iter().flat_map(members) {
+            for complex in [false, true] {
+                for digits in [Digits::Single, Digits::Wide] {
+                    let key = Key {
+                        prim,
+                        complex,
+                        digits,
+                    };
+                    all.insert(key, Entry::default());
+                }
+            }
+        }
+        all
+    });
+    entries.get(&key)
+}
+
 /// The definition of an operation; `None` where there is none for operands of this type.
 #[must_use]
 pub fn definition(key: Key) -> Option<Arc<Definition>> {
-    type Known = Mutex<FxHashMap<Key, Option<Arc<Definition>>>>;
-    static KNOWN: OnceLock<Known> = OnceLock::new();
-    let known = KNOWN.get_or_init(Known::default);
-    if let Some(found) = known
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .get(&key)
-    {
-        return found.clone();
-    }
-    // not locked meanwhile: a definition with constants may need the value of another
-    let built = build(key).map(Arc::new);
-    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
-    known.entry(key).or_insert(built).clone()
+    entry(key)?
+        .definition
+        .get_or_init(|| build(key).map(Arc::new))
+        .clone()
 }
 
 fn build(key: Key) -> Option<Definition> {
@@ -108,17 +127,21 @@ pub fn shader_name(prim: Prim, complex: bool) -> String {
 #[must_use]
 pub fn shader_names(row: &Row) -> Vec<(Prim, String)> {
     let domains = [false, true].map(|complex| row.is_defined(complex).then_some(complex));
-    let members: Vec<Prim> = match row.prim.order() {
-        Some(_) => (0..=table::last_order(row.prim))
-            .map(|n| row.prim.with_order(n))
-            .collect(),
-        None => vec![row.prim],
-    };
     let each = |prim| {
         let named = move |complex| (prim, shader_name(prim, complex));
         domains.into_iter().flatten().map(named)
     };
-    members.into_iter().flat_map(each).collect()
+    members(row).into_iter().flat_map(each).collect()
+}
+
+/// The operations of a row: one, or one of each order of a family.
+fn members(row: &Row) -> Vec<Prim> {
+    match row.prim.order() {
+        Some(_) => (0..=table::last_order(row.prim))
+            .map(|n| row.prim.with_order(n))
+            .collect(),
+        None => vec![row.prim],
+    }
 }
 
 /// The value of an operation in `f64`; `None` where it is not defined for such operands.
@@ -144,18 +167,8 @@ pub fn value(prim: Prim, operands: &[Number]) -> Option<Number> {
 }
 
 fn run(key: Key, inputs: &[Number]) -> Option<Number> {
-    thread_local! {
-        static TAPES: RefCell<FxHashMap<Key, Vec<Tape>>> = RefCell::default();
-    }
-    // taken out while it runs: it may need the value of another definition, or of the same
-    let spare = TAPES.with_borrow_mut(|tapes| tapes.get_mut(&key).and_then(Vec::pop));
-    let mut tape = match spare {
-        Some(tape) => tape,
-        None => {
-            let definition = definition(key)?;
-            Tape::new(&definition.graph, &[definition.root])
-        }
-    };
+    let made = || definition(key).map(|d| Tape::new(&d.graph, &[d.root]));
+    let tape = entry(key)?.tape.get_or_init(made).as_ref()?;
     let leaves = Leaves {
         inputs,
         params: &[],
@@ -167,8 +180,7 @@ fn run(key: Key, inputs: &[Number]) -> Option<Number> {
     } else {
         Number::Real(f64::NAN)
     };
-    tape.run(&leaves, |value| found = value);
-    TAPES.with_borrow_mut(|tapes| tapes.entry(key).or_default().push(tape));
+    tape.run_apart(&leaves, |value| found = value);
     Some(found)
 }
 

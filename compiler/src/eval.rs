@@ -74,6 +74,15 @@ impl Tape {
             each(self.values[root.index()]);
         }
     }
+
+    /// As [`Self::run`], with memory of its own, for a tape that several evaluations share.
+    pub fn run_apart(&self, leaves: &Leaves, mut each: impl FnMut(Number)) {
+        let mut values = self.values.clone();
+        run(&self.nodes, &self.steps, leaves, &mut values);
+        for root in &self.roots {
+            each(values[root.index()]);
+        }
+    }
 }
 
 fn steps(graph: &Graph, schedule: &Schedule, ids: &[Id]) -> Vec<Step> {
