@@ -241,7 +241,15 @@ fn real_atanh(x: f32) -> f32 {
 /// √(x² + y²) without spurious overflow or underflow; infinite when an argument is.
 /// Error: 1.2 ulp.
 fn real_hypot(x: f32, y: f32) -> f32 {
-    return real_hypot3(x, y, 0.0);
+    // only the smaller square is rounded where `fma` is fused; a minimum would lose a NaN
+    let swapped = magnitude(x) < magnitude(y);
+    let a = select(x, y, swapped);
+    let b = select(y, x, swapped);
+    let square = fma(a, a, b * b);
+    if bitcast<u32>(square) - 0x12800000u < 0x5f000000u {
+        return sqrt(square);
+    }
+    return scaled_hypot3(x, y, 0.0);
 }
 
 /// √(x² + y² + z²) without spurious overflow or underflow; infinite when an argument is.

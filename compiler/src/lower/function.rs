@@ -318,6 +318,9 @@ impl Lowering<'_, '_, '_> {
         {
             return Ok(value);
         }
+        if let Some(value) = self.sum_with_square(prim, node)? {
+            return Ok(value);
+        }
         let mut args: SmallVec<[Handle<Expression>; 3]> = SmallVec::new();
         for &arg in &node.args {
             args.push(self.value(arg)?);

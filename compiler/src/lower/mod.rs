@@ -5,6 +5,7 @@ mod defined;
 mod exactness;
 mod format;
 mod function;
+mod fused;
 mod identifier;
 mod leaves;
 mod numbers;

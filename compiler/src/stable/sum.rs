@@ -273,8 +273,8 @@ impl Pass {
 
     /// u² - v², of which one is a constant, as written where it is more than half of the square of the other, x², else from
     /// x - c. Of e the unit of rounding, what is written loses e x² in its square and e |x² - c²| in the difference: more
-    /// only where 2 |x² - c²| < x², and there x - c is exact. Where x² leaves the range, that form is taken, too. (Without
-    /// a constant the errors of u - v and u + v are opposite ones and compensate: the product is better everywhere.)
+    /// only where 2 |x² - c²| < x², and there x - c is exact. That is √(2/3) |c| < |x| < √2 |c|, and asked so: a driver would
+    /// not fuse the square with the difference if the condition needed it, too. (Without a constant the errors of u - v and u + v are opposite ones and compensate: the product is better everywhere.)
     fn beside_constant(g: &mut Graph, u: Id, v: Id) -> Id {
         let (x, c) = if is_step(g, v) { (u, v) } else { (v, u) };
         let [square, other] = [u, v].map(|x| g.apply(Prim::PowInt(2), &[x]));
@@ -283,10 +283,13 @@ impl Pass {
         let difference = g.sub(size, from);
         let beside = square_beside(g, from, difference);
         let beside = if x == u { beside } else { g.neg(beside) };
-        let half = g.apply(Prim::Abs, &[written]);
-        let (most, double) = (g.apply(Prim::PowInt(2), &[x]), scaled(g, 2.0, half));
-        let condition = less(g, most, double);
-        choose(g, condition, written, beside)
+        let (low, high) = ((2.0_f64 / 3.0).sqrt() - 1.0, std::f64::consts::SQRT_2 - 1.0);
+        let middle = scaled(g, (low + high) / 2.0, from);
+        let reach = scaled(g, (high - low) / 2.0, from);
+        let away = g.sub(difference, middle);
+        let away = g.apply(Prim::Abs, &[away]);
+        let condition = less(g, away, reach);
+        choose(g, condition, beside, written)
     }
 
     /// z² - v² for a constant v: the real part of (z - v)(z + v), and the imaginary part of z², which does not cancel

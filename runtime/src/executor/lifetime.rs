@@ -20,9 +20,11 @@ pub(super) struct Lifetimes {
 }
 
 impl Lifetimes {
-    pub fn of(function: &Function) -> Result<Self, Fault> {
+    /// With `contracted`, the factors of a product are needed as long as a sum that it may be fused into.
+    pub fn of(function: &Function, contracted: bool) -> Result<Self, Fault> {
         let mut walk = Walk {
             function,
+            contracted,
             tick: 0,
             depth: vec![None; function.expressions.len()],
             last: vec![0; function.expressions.len()],
@@ -63,6 +65,7 @@ impl Lifetimes {
 
 struct Walk<'f> {
     function: &'f Function,
+    contracted: bool,
     tick: u32,
     /// Nesting of the block in which a value is made.
     depth: Vec<Option<usize>>,
@@ -108,7 +111,14 @@ impl Walk<'_> {
                 for handle in range.clone() {
                     self.tick += 1;
                     let function = self.function;
-                    operands(&function.expressions[handle], |used| self.need(used));
+                    operands(&function.expressions[handle], |used| {
+                        self.need(used);
+                        if self.contracted
+                            && let product @ Expression::Binary { .. } = &function.expressions[used]
+                        {
+                            operands(product, |factor| self.need(factor));
+                        }
+                    });
                     self.make(handle);
                 }
                 continue;

@@ -10,7 +10,7 @@ use pullback_compiler::{SceneModule, SettingValue};
 use super::fault::Fault;
 use super::lanes::LANES;
 use super::machine::{Limits, MAX_STEPS, Machine};
-use super::program::{Component, Options, Program, Start, Watched};
+use super::program::{Component, Contraction, Options, Program, Start, Watched};
 use super::{Arithmetic, Observer};
 use crate::Error;
 use crate::pool::spread;
@@ -98,6 +98,7 @@ impl Painter {
         let format = scene.tier.precision.format();
         let options = Options {
             arithmetic,
+            contraction: Contraction::None,
             format,
             watched,
         };

@@ -83,10 +83,25 @@ pub enum Start<'a> {
 pub struct Options {
     /// What numbers are computed with.
     pub arithmetic: Arithmetic,
+    /// Whether products are fused with sums, as drivers do.
+    pub contraction: Contraction,
     /// How the module holds the formula's numbers.
     pub format: Format,
     /// What an observer is to see.
     pub watched: Watched,
+}
+
+/// What becomes of a sum with a product, which WGSL lets a driver fuse: a product that nothing else needs and that stands in the
+/// sum itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Contraction {
+    /// Every operation is rounded.
+    #[default]
+    None,
+    /// The product is not rounded; of two, the left one.
+    Left,
+    /// The product is not rounded; of two, the right one.
+    Right,
 }
 
 /// What of a run an observer sees.

@@ -10,7 +10,7 @@ use super::fault::Fault;
 use super::lanes::LANES;
 use super::machine::{Limits, MAX_STEPS, Machine};
 use super::painter::wide_word;
-use super::program::{Buffer, Options, Program, Start, Watched};
+use super::program::{Buffer, Contraction, Options, Program, Start, Watched};
 use super::{Arithmetic, Observer};
 use crate::Error;
 use crate::evaluate::Surroundings;
@@ -37,7 +37,16 @@ impl Rows {
     /// # Errors
     /// [`Error::Executor`] if it holds what none of our modules does.
     pub fn new(module: &EvalModule, arithmetic: Arithmetic) -> Result<Self, Error> {
-        Self::start(module, arithmetic, Watched::Nothing)
+        Self::start(module, arithmetic, Contraction::None, Watched::Nothing)
+    }
+
+    /// Translates the module for [`Arithmetic::Ieee32`], with products fused into sums as a driver may.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn contracted(module: &EvalModule, contraction: Contraction) -> Result<Self, Error> {
+        let arithmetic = Arithmetic::Ieee32;
+        Self::start(module, arithmetic, contraction, Watched::Nothing)
     }
 
     /// Translates the module to be asked for what it computes on the way: [`Self::trace`].
@@ -49,13 +58,19 @@ impl Rows {
         arithmetic: Arithmetic,
         watched: Watched,
     ) -> Result<Self, Error> {
-        Self::start(module, arithmetic, watched)
+        Self::start(module, arithmetic, Contraction::None, watched)
     }
 
-    fn start(module: &EvalModule, arithmetic: Arithmetic, watched: Watched) -> Result<Self, Error> {
+    fn start(
+        module: &EvalModule,
+        arithmetic: Arithmetic,
+        contraction: Contraction,
+        watched: Watched,
+    ) -> Result<Self, Error> {
         let format = module.tier.precision.format();
         let options = Options {
             arithmetic,
+            contraction,
             format,
             watched,
         };

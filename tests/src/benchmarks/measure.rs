@@ -4,9 +4,10 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use pullback_compiler::formula::Formula;
-use pullback_compiler::lower::Precision;
+use pullback_compiler::lower::{Precision, Tier};
 use pullback_compiler::{EvalModule, Evaluator, What, compile_function};
 use pullback_runtime::evaluate::Surroundings;
+use pullback_runtime::executor::{Contraction, Rows};
 use pullback_runtime::{Capabilities, Gpu, GpuEvaluator};
 
 use super::bits::Exact;
@@ -19,6 +20,8 @@ use super::store::{Store, key};
 pub enum Machine {
     /// The `f64` reference on the CPU, which computes a formula as it is written.
     Reference,
+    /// The executor, in exact single precision with products fused into sums as a driver may.
+    Contracted(Contraction),
     /// A GPU.
     Gpu(Box<Gpu>),
 }
@@ -211,8 +214,11 @@ pub fn results(
     points: &[Sample],
 ) -> Result<Option<Vec<f64>>, String> {
     let Machine::Gpu(gpu) = machine else {
-        return match precision {
-            Precision::Double => reference(formula, points).map(Some),
+        return match (machine, precision) {
+            (Machine::Contracted(contraction), Precision::Accurate) => {
+                contracted(formula, *contraction, points).map(Some)
+            }
+            (Machine::Reference, Precision::Double) => reference(formula, points).map(Some),
             _ => Ok(None),
         };
     };
@@ -234,6 +240,24 @@ fn computed(gpu: &Gpu, module: &EvalModule, points: &[Sample]) -> Result<Vec<f64
     let mut out = Vec::new();
     evaluator
         .eval_exactly(Surroundings::default(), points.len(), &rows, &mut out)
+        .map_err(|e| e.to_string())?;
+    Ok(out)
+}
+
+fn contracted(
+    formula: &Formula,
+    contraction: Contraction,
+    points: &[Sample],
+) -> Result<Vec<f64>, String> {
+    let tier = Tier::from(Precision::Accurate);
+    let module = EvalModule::new(formula, What::Value, tier).map_err(|e| format!("{e:?}"))?;
+    let rows = Rows::contracted(&module, contraction).map_err(|e| e.to_string())?;
+    let numbers: Vec<f64> = points
+        .iter()
+        .flat_map(|p| p.args.iter().map(|&x| f64::from(x)))
+        .collect();
+    let mut out = Vec::new();
+    rows.eval(Surroundings::default(), points.len(), &numbers, &mut out)
         .map_err(|e| e.to_string())?;
     Ok(out)
 }

@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use clap::Parser;
 use pullback_compiler::lower::Precision;
+use pullback_runtime::executor::Contraction;
 use pullback_runtime::{AdapterChoice, Gpu};
 use pullback_tests::benchmarks::data::{Benchmark, COLLECTIONS, collection};
 use pullback_tests::benchmarks::dense;
@@ -28,7 +29,9 @@ use pullback_tests::benchmarks::store::Store;
 /// that. The column `24 bits` shows it.
 #[derive(Parser)]
 struct Options {
-    /// `auto`, `gpu`, `software`, or part of an adapter's name; `reference` for the f64 evaluator
+    /// `auto`, `gpu`, `software`, or part of an adapter's name; `reference` for the f64 evaluator; `ieee32`
+    /// for exact single precision on the processor, `contracted-left` and `contracted-right` with products fused into sums as
+    /// drivers do, of two the left or the right one: only tier `accurate`
     #[arg(long, default_value = "auto")]
     adapter: String,
     /// Only these tiers
@@ -191,6 +194,16 @@ fn dense_table(
 fn machines(options: &Options) -> Result<Vec<Machine>, String> {
     if options.adapter == "reference" {
         let one = |_| Machine::Reference;
+        return Ok((0..options.threads.max(1)).map(one).collect());
+    }
+    let contraction = match options.adapter.as_str() {
+        "ieee32" => Some(Contraction::None),
+        "contracted-left" => Some(Contraction::Left),
+        "contracted-right" => Some(Contraction::Right),
+        _ => None,
+    };
+    if let Some(contraction) = contraction {
+        let one = |_| Machine::Contracted(contraction);
         return Ok((0..options.threads.max(1)).map(one).collect());
     }
     let choice: AdapterChoice = options.adapter.parse().unwrap_or_default();

@@ -7,7 +7,8 @@ use naga::valid::ModuleInfo;
 use pullback_compiler::lower::{Format, Precision};
 use pullback_compiler::scene::setting_component;
 use pullback_runtime::executor::{
-    Arithmetic, Component, Kind, Limits, Machine, Options, Program, Start, WARP, Watched,
+    Arithmetic, Component, Contraction, Kind, Limits, Machine, Options, Program, Start, WARP,
+    Watched,
 };
 use pullback_runtime::{Error, Size};
 
@@ -72,6 +73,7 @@ pub fn count(twin: &Twin, size: Size, precision: Precision) -> Result<[Count; 2]
 fn counted(module: &Module, info: &ModuleInfo, still: &Still) -> Result<Count, Error> {
     let options = Options {
         arithmetic: Arithmetic::Ieee32,
+        contraction: Contraction::None,
         format: Format::Single,
         watched: Watched::Nothing,
     };

@@ -5,7 +5,7 @@ use pullback_compiler::lower::Format;
 use pullback_compiler::reference::hash::hash;
 
 use super::*;
-use crate::executor::{Arithmetic, Options, Start, Watched};
+use crate::executor::{Arithmetic, Contraction, Options, Start, Watched};
 
 fn program(wgsl: &str, arithmetic: Arithmetic) -> Program {
     let module = naga::front::wgsl::parse_str(wgsl).expect("WGSL");
@@ -15,6 +15,7 @@ fn program(wgsl: &str, arithmetic: Arithmetic) -> Program {
         .expect("a module");
     let options = Options {
         arithmetic,
+        contraction: Contraction::None,
         format: Format::Single,
         watched: Watched::Nothing,
     };

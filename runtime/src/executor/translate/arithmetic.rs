@@ -6,10 +6,10 @@ use naga::{
 
 use super::body::Body;
 use super::{Parts, Translator};
-use crate::executor::Arithmetic;
-use crate::executor::code::{Compare, Float1, Float2, Form, Int1, Int2, Op};
+use crate::executor::code::{Compare, Float1, Float2, Float3, Form, Int1, Int2, Op};
 use crate::executor::fault::Fault;
 use crate::executor::lanes::{Slot, TRUE};
+use crate::executor::{Arithmetic, Contraction};
 
 impl<'m> Translator<'m> {
     pub(super) fn unary_operator(
@@ -47,6 +47,9 @@ impl<'m> Translator<'m> {
                 return Ok(product);
             }
         }
+        if let Some(fused) = self.contracted(body, op, (left, &a), (right, &b))? {
+            return Ok(fused);
+        }
         let op = operator(op, form);
         let count = a.len().max(b.len());
         // a scalar beside a vector counts for each component
@@ -58,6 +61,65 @@ impl<'m> Translator<'m> {
                 _ => self.binary(op, at(&a, k), at(&b, k)),
             })
             .collect()
+    }
+
+    /// A sum or difference with a product that is not rounded, where the options ask for that and there is one.
+    fn contracted(
+        &mut self,
+        body: &mut Body<'m>,
+        op: BinaryOperator,
+        (left, a): (Handle<Expression>, &Parts),
+        (right, b): (Handle<Expression>, &Parts),
+    ) -> Result<Option<Parts>, Fault> {
+        let minus = match op {
+            BinaryOperator::Add => false,
+            BinaryOperator::Subtract => true,
+            _ => return Ok(None),
+        };
+        let sides = match self.options.contraction {
+            Contraction::None => return Ok(None),
+            Contraction::Left => [true, false],
+            Contraction::Right => [false, true],
+        };
+        let form = self.form(body, left)?;
+        for is_left in sides {
+            let (product, addend) = if is_left { (left, b) } else { (right, a) };
+            let Some((x, y)) = self.lone_product(body, product) else {
+                continue;
+            };
+            let (x, y) = (self.value(body, x)?, self.value(body, y)?);
+            let count = a.len().max(b.len());
+            let at = |parts: &Parts, k: usize| parts[if parts.len() == 1 { 0 } else { k }];
+            let mut out = Parts::new();
+            for k in 0..count {
+                let (mut x, y, mut z) = (at(&x, k), at(&y, k), at(addend, k));
+                let negated = if is_left { &mut z } else { &mut x };
+                if minus {
+                    *negated = self.unary(Op::Float1(form, Float1::Neg), *negated)?;
+                }
+                out.push(self.ternary(Op::Float3(form, Float3::Fma), x, y, z)?);
+            }
+            return Ok(Some(out));
+        }
+        Ok(None)
+    }
+
+    /// The factors of a product of 32-bit numbers, or of vectors of such, that is needed once.
+    fn lone_product(
+        &self,
+        body: &Body<'m>,
+        product: Handle<Expression>,
+    ) -> Option<(Handle<Expression>, Handle<Expression>)> {
+        let &Expression::Binary { op, left, right } = &body.function.expressions[product] else {
+            return None;
+        };
+        let is_matrix = |side| matches!(self.inner(body, side), TypeInner::Matrix { .. });
+        let fits = op == BinaryOperator::Multiply
+            && body.info[product].ref_count == 1
+            && self.form(body, product).ok()? == Form::F32
+            && !is_matrix(left)
+            && !is_matrix(right);
+        fits.then_some((left, right))
     }
 
     /// The product of matrices, or of a matrix and a vector: sums over the columns of the left one, in their order.

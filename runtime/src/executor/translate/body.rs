@@ -5,6 +5,7 @@ use naga::{Block, Expression, Function, Handle, LocalVariable, Statement};
 
 use super::pointer::Place;
 use super::{Parts, Translator};
+use crate::executor::Contraction;
 use crate::executor::code::{Inst, Op};
 use crate::executor::fault::Fault;
 use crate::executor::lanes::Slot;
@@ -62,6 +63,7 @@ impl<'m> Body<'m> {
         function: &'m Function,
         info: &'m FunctionInfo,
         handle: Option<Handle<Function>>,
+        contraction: Contraction,
     ) -> Result<Self, Fault> {
         Ok(Self {
             function,
@@ -72,7 +74,7 @@ impl<'m> Body<'m> {
             results: Vec::new(),
             returns: Returns::AtEnd,
             locals: Vec::new(),
-            lifetimes: Lifetimes::of(function)?,
+            lifetimes: Lifetimes::of(function, contraction != Contraction::None)?,
             exits: Vec::new(),
         })
     }

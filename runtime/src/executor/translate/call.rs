@@ -36,7 +36,12 @@ impl<'m> Translator<'m> {
         let floor = self.plans.floor(function);
         self.frame = Frame::new(floor);
         let before = self.owned_by(function);
-        let mut body = Body::new(function, &self.info[handle], Some(handle))?;
+        let mut body = Body::new(
+            function,
+            &self.info[handle],
+            Some(handle),
+            self.options.contraction,
+        )?;
         for argument in &function.arguments {
             let parts = self.argument_registers(&self.module.types[argument.ty].inner)?;
             body.arguments.push(parts);
@@ -145,7 +150,12 @@ impl<'m> Translator<'m> {
         given: Vec<Parts>,
     ) -> Result<Parts, Fault> {
         let before = self.owned_by(function);
-        let mut body = Body::new(function, &self.info[handle], Some(handle))?;
+        let mut body = Body::new(
+            function,
+            &self.info[handle],
+            Some(handle),
+            self.options.contraction,
+        )?;
         body.arguments = given;
         body.returns = self.returns(&mut body, true)?;
         let gone = match body.returns {

@@ -118,7 +118,7 @@ pub(super) fn program(
         Some(handle) => &info[handle],
         None => info.get_entry_point(place),
     };
-    let body = Body::new(root.function, info, root.handle)?;
+    let body = Body::new(root.function, info, root.handle, options.contraction)?;
     let name = root.function.name.clone();
     let (entry, arguments, results) = translator
         .root(body)
