@@ -9,7 +9,7 @@ use pullback_compiler::{EvalModule, What, compile};
 use pullback_runtime::GpuEvaluator;
 use pullback_runtime::evaluate::Surroundings;
 use pullback_runtime::executor::{
-    Arithmetic, Limits, Machine, Options, Program, Rows, Start, Watched,
+    Arithmetic, Contraction, Limits, Machine, Options, Program, Rows, Start, Watched,
 };
 use pullback_tests::accuracy::evaluators::suite_gpu;
 use pullback_tests::mutate::Random;
@@ -168,6 +168,7 @@ fn generated_arithmetic_is_native_arithmetic() {
             arithmetic: Arithmetic::Ieee32,
             format: Format::Single,
             watched: Watched::Nothing,
+            contraction: Contraction::None,
         };
         for (k, tree) in trees.iter().enumerate() {
             let name = format!("test{k}");

@@ -6,7 +6,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use pullback_compiler::lower::{Exactness, Format, Precision, Tier};
 use pullback_compiler::{What, compile};
 use pullback_runtime::executor::{
-    Arithmetic, Component, Limits, Machine, Options, Program, Start, Watched,
+    Arithmetic, Component, Contraction, Limits, Machine, Options, Program, Start, Watched,
 };
 use pullback_tests::constructs::constructs;
 use pullback_tests::corpus::{gallery, read, root};
@@ -100,6 +100,7 @@ fn program(row: &Row, arithmetic: Arithmetic) -> Program {
         arithmetic,
         format: Format::Single,
         watched: Watched::Nothing,
+        contraction: Contraction::None,
     };
     Program::new(&module, &info, Start::Function("test"), options)
         .unwrap_or_else(|e| panic!("{e}: {}", row.wgsl))

@@ -15,8 +15,8 @@ use pullback_compiler::stable::Rewrites;
 use pullback_compiler::{EvalModule, What, compile};
 use pullback_runtime::evaluate::Surroundings;
 use pullback_runtime::executor::{
-    Arithmetic, Fault, Limits, MAX_FORMULA_TURNS, MAX_STEPS, MAX_TURNS, Machine, Options, Painter,
-    Program, Rows, Start, Watched,
+    Arithmetic, Contraction, Fault, Limits, MAX_FORMULA_TURNS, MAX_STEPS, MAX_TURNS, Machine,
+    Options, Painter, Program, Rows, Start, Watched,
 };
 use pullback_runtime::{Error, Frame, Pipeline, Size, View};
 
@@ -29,6 +29,7 @@ const OPTIONS: Options = Options {
     arithmetic: Arithmetic::Reference,
     format: Format::Single,
     watched: Watched::Nothing,
+    contraction: Contraction::None,
 };
 
 fn validated(module: Module) -> (Module, ModuleInfo) {

@@ -9,7 +9,7 @@ const END: &str = "<!-- end of the summary -->\n";
 const TIERS: [&str; 4] = ["fast", "accurate", "extended", "double"];
 
 /// The functions of each group, real and complex.
-const GROUPS: [(&str, &[&str]); 8] = [
+const GROUPS: [(&str, &[&str]); 9] = [
     (
         "sums, products, quotients",
         &["neg", "add", "sub", "mul", "div", "inverse"],
@@ -52,6 +52,20 @@ const GROUPS: [(&str, &[&str]); 8] = [
         ],
     ),
     ("gamma family", &["gamma", "lgamma", "digamma", "trigamma"]),
+    (
+        "ray integrals",
+        &[
+            "atanq",
+            "atan2q",
+            "log1prel",
+            "log1pexp",
+            "erf",
+            "erfc",
+            "erfcx",
+            "gaussmass",
+            "gaussmassx",
+        ],
+    ),
 ];
 
 /// What is said of one function in one tier.
