@@ -1,7 +1,7 @@
 //! Integer powers as products.
 
 use std::borrow::Cow;
-use std::ops::RangeInclusive;
+use std::ops::Range;
 
 use super::{Graph, Id, Op, Prim, Ty, transcribe};
 
@@ -10,10 +10,10 @@ const MAX_EXPANDED: u32 = 1 << 16;
 
 /// Exponents whose complex powers stay calls in single precision: products by repeated squaring would round to more than 4 ulp
 /// of the modulus there, which the library's function does not.
-pub const SINGLE_CALLS: RangeInclusive<u32> = 5..=8;
+pub const SINGLE_CALLS: Range<u32> = 5..9;
 
 /// No exponents: all complex powers become products.
-pub const NO_CALLS: RangeInclusive<u32> = 1..=0;
+pub const NO_CALLS: Range<u32> = 0..0;
 
 /// Rewrites every integer power that the roots depend on as products by repeated squaring, so that xⁿ and
 /// the xⁿ⁻¹ of its derivative share their factors. A negative exponent is the reciprocal of the positive power, but x⁻² the
@@ -25,7 +25,7 @@ pub const NO_CALLS: RangeInclusive<u32> = 1..=0;
 pub fn expand_powers<'g>(
     graph: &'g Graph,
     roots: &[Id],
-    calls: &RangeInclusive<u32>,
+    calls: &Range<u32>,
 ) -> (Cow<'g, Graph>, Vec<Id>) {
     let live = graph.reachable(roots);
     let is_power =
@@ -49,7 +49,7 @@ pub fn expand_powers<'g>(
     (Cow::Owned(out), roots)
 }
 
-fn power(g: &mut Graph, ty: Ty, base: Id, n: i32, calls: &RangeInclusive<u32>) -> Id {
+fn power(g: &mut Graph, ty: Ty, base: Id, n: i32, calls: &Range<u32>) -> Id {
     if n == -2 {
         let one = g.real(1.0);
         let inverse = g.intern(Op::Apply(Prim::Div), ty, &[one, base]);

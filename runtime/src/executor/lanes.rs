@@ -138,6 +138,7 @@ impl Slot {
     }
 
     /// Its chunks in a memory, which goes on for a group behind the last slot.
+    #[allow(clippy::expect_used, reason = "the slice has the length of the array")]
     #[inline(always)]
     pub fn row(self, memory: &[Cell<Chunk>]) -> Row<'_> {
         let start = self.at as usize;

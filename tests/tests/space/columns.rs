@@ -238,7 +238,8 @@ fn steps_with_exact_depths_are_better_than_samples() {
 #[test]
 fn layers_of_fog_are_exact_in_any_number_of_steps() {
     let Some(gpu) = device() else { return };
-    let cases: [(&str, fn(Vec3) -> f64); 3] = [
+    type Density = fn(Vec3) -> f64;
+    let cases: [(&str, Density); 3] = [
         ("exp(-1.5 (z + 2))", |p| (-1.5 * (p[2] + 2.0)).exp()),
         ("{ z < -0.5: 1, z < 1: 0.3, else: 0 }", |p| match p[2] {
             z if z < -0.5 => 1.0,
