@@ -26,7 +26,7 @@ pub struct LibraryFunction {
     pub usage: String,
     /// Its definition as text.
     pub definition: &'static str,
-    /// Its definition in [`file`].
+    /// Its definition in [`file`](fn@file).
     pub function: &'static Function,
     /// The types of its parameters; `None` takes any.
     pub types: Vec<Option<Type>>,
