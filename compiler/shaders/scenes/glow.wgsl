@@ -88,7 +88,6 @@ fn field_colour(p: vec3f) -> vec4f { return vec4f(); }
 
 fn is_nan(x: f32) -> bool { return false; }
 fn is_finite(x: f32) -> bool { return false; }
-fn is_moderate(square: f32) -> bool { return false; }
 fn length3_safe(v: vec3f) -> f32 { return 0.0; }
 fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
@@ -107,20 +106,12 @@ fn shortest_side() -> f32 {
 // The field as a distance, by its slope, which is 1 where it is one; FARTHEST where that is not known.
 fn distance_at(p: vec3f) -> f32 {
     let jet = field_grad(p);
-    if !is_finite(jet.w) {
+    let directed = is_finite(jet.x) && is_finite(jet.y) && is_finite(jet.z);
+    if !is_finite(jet.w) || (settings.estimate == 0u && !directed) {
         return FARTHEST;
     }
-    if settings.estimate == 1u {
-        return clamp(jet.w, -FARTHEST, FARTHEST);
-    }
-    let square = dot(jet.xyz, jet.xyz);
-    if is_moderate(square) {
-        return clamp(jet.w * inverseSqrt(square), -FARTHEST, FARTHEST);
-    }
-    if !(is_finite(jet.x) && is_finite(jet.y) && is_finite(jet.z)) {
-        return FARTHEST;
-    }
-    return clamp(jet.w / max(length3_safe(jet.xyz), 1e-37), -FARTHEST, FARTHEST);
+    let slope = select(length3_safe(jet.xyz), 1.0, settings.estimate == 1u);
+    return clamp(jet.w / max(slope, 1e-37), -FARTHEST, FARTHEST);
 }
 
 // Colour of the light at a distance from the surface.

@@ -165,9 +165,9 @@ fn path_within(ray: Ray, span: vec2f, steps: u32) -> Path {
     return Path(Ray(ray.origin + enter * ray.direction, ray.direction), extent, step_count(extent, steps));
 }
 
-// A sample of f - level and its slope, of which differences and ratios are finite.
-fn sample_of(t: f32, raw: vec2f) -> Sample {
-    let value = clamp(raw.x, -LARGEST, LARGEST);
+fn sample_ray(ray: Ray, t: f32) -> Sample {
+    let raw = field_ray(ray.origin, ray.direction, t);
+    let value = clamp(raw.x - settings.level, -LARGEST, LARGEST);
     let slope = select(clamp(raw.y, -LARGEST, LARGEST), 0.0, is_nan(raw.y));
     return Sample(t, value, slope, !is_nan(raw.x));
 }
@@ -207,59 +207,43 @@ fn march(path: Path) -> Hit {
     if !(path.extent > 0.0) {
         return NO_HIT;
     }
-    let count = f32(path.count);
-    let step = path.extent / count;
-    // f - level and its slope at the ends of the last step, the k-th
-    var near: vec2f;
-    var far: vec2f;
-    var k = -1.0;
-    var t = 0.0;
+    let step = path.extent / f32(path.count);
+    var a: Sample;
+    var b: Sample;
     var search: Search;
+    var t = 0.0;
+    var k = 0u;
     loop {
-        // the step that is searched, to be gone on from
-        let before = near;
-        let after = far;
-        let walked = k;
-        // a search wants one sample
-        let last = select(-2.0, count - 1.0, search.mode == WALK);
+        var found: Sample;
         var promising = false;
         loop {
-            near = far;
-            far = field_ray(path.ray.origin, path.ray.direction, t) - vec2f(settings.level, 0.0);
-            k += 1.0;
-            if !is_plain(near, far) {
-                promising = (k > 0.0) & may_hit(sample_of(t - step, near), sample_of(t, far));
-            }
-            if promising | (k > last) {
+            found = sample_ray(path.ray, t);
+            if search.mode != WALK {
                 break;
             }
-            t = (k + 1.0) * step;
+            a = b;
+            b = found;
+            promising = k > 0u && may_hit(a, b);
+            k++;
+            if promising || k > path.count {
+                break;
+            }
+            t = f32(k) * step;
         }
         if search.mode != WALK {
-            let found = sample_of(t, far);
-            near = before;
-            far = after;
-            k = walked;
-            search = searched(search, near, far, (k - 1.0) * step, step, found);
+            search = searched(search, a, b, found);
         } else if promising {
-            search = search_step(sample_of((k - 1.0) * step, near), sample_of(k * step, far));
+            search = search_step(a, b);
         }
         if search.mode == FOUND {
             return Hit(search.t, true, search.touching);
         }
-        if search.mode == WALK && k >= count {
+        if search.mode == WALK && k > path.count {
             return NO_HIT;
         }
-        t = select(search.t, (k + 1.0) * step, search.mode == WALK);
+        t = select(search.t, f32(k) * step, search.mode == WALK);
     }
     return NO_HIT;
-}
-
-// Whether between two values with their slopes there is plainly nothing, as in most steps: all is defined, and neither
-// the value nor the slope changes its sign. Positive are the bits from 1 to those of infinity; compilers may assume that
-// there is no NaN.
-fn is_plain(near: vec2f, far: vec2f) -> bool {
-    return (bitcast<u32>(near.x * far.x) - 1u < 0x7f800000u) & (near.y * far.y > 0.0);
 }
 
 // Whether the step from a to b may hold the surface.
@@ -288,13 +272,13 @@ fn search_step(a: Sample, b: Sample) -> Search {
     return dip_place(Search(DIP, 0u, 0.0, a, b, nearest, 1.0, 1.0, 0.0, false));
 }
 
-// A search with the sample that it wanted, in a step that begins at t.
-fn searched(search: Search, near: vec2f, far: vec2f, t: f32, step: f32, found: Sample) -> Search {
+// A search with the sample that it wanted, in the step from a to b.
+fn searched(search: Search, a: Sample, b: Sample, found: Sample) -> Search {
     if search.mode == EDGE {
         return searched_edge(search, found);
     }
     if search.mode == DIP {
-        return searched_dip(search, sample_of(t, near), sample_of(t + step, far), found);
+        return searched_dip(search, a, b, found);
     }
     return searched_crossing(search, found);
 }
@@ -572,24 +556,26 @@ fn face_of(ray: Ray, span: vec2f, behind: bool, hidden: bool) -> Face {
 // f on a face.
 struct Trace {
     value: f32,    // f - level
-    rate: f32,     // change of value per pixel across the lines; 0 where it is not known
+    flat: vec3f,   // gradient in the face
+    slope: f32,    // length of that; 0 where it is not known
+    rate: f32,     // change of value per pixel across the lines
     line: f32,     // coverage by the line of the level, if it is one
 }
 
 fn trace_on(face: Face, value: f32, gradient: vec3f, sight: Sight) -> Trace {
-    let rate = screen_rate(sight, face.t, face.n, gradient);
-    if (rate <= 0.0) | (rate >= 1e37) {
-        return Trace(value, 0.0, 0.0);
-    }
-    let line = line_coverage(pixels_away(abs(value), rate), 2.0 * settings.isoline_width, sample_window());
-    return Trace(value, rate, line);
-}
-
-// Where one Newton step within the face ends.
-fn newton_point(face: Face, value: f32, gradient: vec3f) -> vec3f {
     let flat = gradient - face.n * dot(gradient, face.n);
     let slope = length3_safe(flat);
-    return face.p - flat / slope * (value / slope);
+    if !is_finite(slope) || slope <= 0.0 {
+        return Trace(value, flat, 0.0, 0.0, 0.0);
+    }
+    let rate = screen_rate(sight, face.t, face.n, flat);
+    let line = line_coverage(pixels_away(abs(value), rate), 2.0 * settings.isoline_width, sample_window());
+    return Trace(value, flat, slope, rate, line);
+}
+
+// Where one Newton step ends.
+fn newton_point(face: Face, trace: Trace) -> vec3f {
+    return face.p - trace.flat / trace.slope * (trace.value / trace.slope);
 }
 
 // Tells a zero from a pole by f at the end of one Newton step: near a zero of order n that multiplies the value by
@@ -611,7 +597,7 @@ fn wall_on(trace: Trace, undefined: bool, crossed: bool, pixel: vec2f, behind: b
     if behind {
         wall = Layer(mix(side, vec3f(1.0), 0.5), 0.22);
     }
-    if trace.rate <= 0.0 {
+    if trace.slope <= 0.0 {
         return wall;
     }
     if behind && settings.isoline_spacing > 0.0 {
@@ -632,7 +618,7 @@ fn family_coverage(value: f32, rate: f32, window: f32) -> f32 {
         let u = value / spacing;
         let lines = min(rate / spacing, 1e9);
         // Past 2²² spacings f32 no longer resolves the place between two lines.
-        if abs(u) < 4194304.0 && lines < 0.28 {
+        if abs(u) < 4194304.0 {
             let sparse = 1.0 - smoothstep(0.10, 0.28, lines);
             covered = max(covered, sparse * line_train(u, lines * settings.isoline_width, lines * window));
         }
@@ -673,7 +659,7 @@ fn over_wall(under: vec4f, face: Face, sight: Sight, pixel: vec2f, behind: bool)
         if undefined || !(trace.line > 0.0) {
             break;
         }
-        p = newton_point(face, value, jet.xyz);
+        p = newton_point(face, trace);
     }
     let wall = wall_on(trace, undefined, crossed, pixel, behind);
     let edge = edge_layer(sight, face.t, face.n, settings.center, settings.box, settings.edge_width, behind);

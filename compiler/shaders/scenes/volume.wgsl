@@ -176,12 +176,6 @@ fn is_of_one_colour() -> bool {
     return settings.emission == EVEN && (settings.gas.signs != 0u || all(settings.gas.positive == settings.gas.negative));
 }
 
-// Whether a column has been compiled, for this power and these signs. It says so of any stretch.
-fn has_column() -> bool {
-    let column = field_column(vec3f(), vec3f(), 0.0, 0.0);
-    return column.y == settings.gas.power && column.z == f32(settings.gas.signs);
-}
-
 // What the medium is made of at a point.
 fn matter_at(p: vec3f, medium: Medium) -> Matter {
     let jet = field_grad(p);
@@ -195,7 +189,7 @@ fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
     let medium = medium();
     let start = max(span.x, 0.0);
     let stretches = stretches_of(span.y - start, settings.box, settings.gas.steps, settings.gas.jitter, pixel);
-    let by_columns = settings.steps_by != BY_SAMPLES && has_column();
+    let by_columns = settings.steps_by != BY_SAMPLES;
     var whole = by_columns && is_of_one_colour();
     var seen = seen_nothing();
     var k = view.zero;
@@ -212,20 +206,25 @@ fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
             whole = false;
             continue;
         }
-        let middle = 0.5 * (stretch.x + stretch.y);
-        if depth < 0.0 {
-            seen = seen_through(seen, matter_at(ray.origin + middle * ray.direction, medium), stretch.y - stretch.x);
-        } else {
-            // one place that evaluates the field at both points
-            let apart = 0.2886751345948129 * (stretch.y - stretch.x);
-            var near = Matter();
-            var far = Matter();
-            for (var j = view.zero; j < 2u; j++) {
-                near = far;
-                let t = middle + select(apart, -apart, j == 0u);
-                far = matter_at(ray.origin + t * ray.direction, medium);
+        // one place that evaluates the field: the middle, or both points; a shader that knows which has no loop
+        let count = select(1u, 2u, depth >= 0.0);
+        let apart = select(0.0, 0.2886751345948129 * (stretch.y - stretch.x), depth >= 0.0);
+        var near = Matter();
+        var far = Matter();
+        var j = 0u;
+        loop {
+            near = far;
+            let t = 0.5 * (stretch.x + stretch.y) + select(apart, -apart, j == 0u);
+            far = matter_at(ray.origin + t * ray.direction, medium);
+            j++;
+            if j >= count {
+                break;
             }
+        }
+        if depth >= 0.0 {
             seen = seen_through_column(seen, near, far, depth);
+        } else {
+            seen = seen_through(seen, far, stretch.y - stretch.x);
         }
         k++;
     }
