@@ -2,12 +2,11 @@
 
 use naga::{
     Arena, Block, Expression, Function, GlobalVariable, Handle, Literal, LocalVariable, ScalarKind,
-    Span, Statement, SwitchCase, SwitchValue, Type, TypeInner,
+    Span, Statement, SwitchCase, SwitchValue, Type,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::calls::Calls;
-use super::fold;
 use super::known::{Key, Known};
 use super::operands::each_operand;
 use super::pools::Pools;
@@ -24,7 +23,7 @@ pub struct Fixed<'a> {
 impl Fixed<'_> {
     /// The number at an offset in bytes. Numbers that no literal can be, and subnormal ones, which machines treat
     /// differently, count as unknown.
-    fn word(&self, offset: u32, kind: ScalarKind) -> Option<Literal> {
+    pub(super) fn word(&self, offset: u32, kind: ScalarKind) -> Option<Literal> {
         let bits = (*self.words.get(offset as usize / 4)?)?;
         match kind {
             ScalarKind::Float => {
@@ -40,9 +39,9 @@ impl Fixed<'_> {
 
 /// What has become of an expression.
 #[derive(Clone, Debug, Default)]
-struct Slot {
-    known: Option<Known>,
-    at: Option<Handle<Expression>>,
+pub(super) struct Slot {
+    pub known: Option<Known>,
+    pub at: Option<Handle<Expression>>,
 }
 
 /// A construct that no shader of ours has: the function is left as it is.
@@ -51,21 +50,21 @@ pub struct Unforeseen;
 
 /// Makes a function anew.
 pub struct Rewriter<'a, 'm> {
-    old: &'a Function,
-    fixed: &'a [Fixed<'a>],
-    pools: &'a mut Pools<'m>,
+    pub(super) old: &'a Function,
+    pub(super) fixed: &'a [Fixed<'a>],
+    pub(super) pools: &'a mut Pools<'m>,
     calls: &'a mut Calls,
     arguments: Vec<Option<Known>>,
-    expressions: Arena<Expression>,
-    slots: Vec<Slot>,
-    literals: FxHashMap<Key, Handle<Expression>>,
+    pub(super) expressions: Arena<Expression>,
+    pub(super) slots: Vec<Slot>,
+    pub(super) literals: FxHashMap<Key, Handle<Expression>>,
     /// Locals whose every use is seen, and the values of those that are known here.
     tracked: FxHashSet<Handle<LocalVariable>>,
-    values: FxHashMap<Handle<LocalVariable>, Known>,
+    pub(super) values: FxHashMap<Handle<LocalVariable>, Known>,
     /// Blocks that are being made, the innermost last.
     out: Vec<Block>,
     /// Where expressions begin that no statement emits yet.
-    run: Option<usize>,
+    pub(super) run: Option<usize>,
     /// Values of the returns.
     returned: Vec<Option<Known>>,
     /// Whether it does anything but compute.
@@ -73,7 +72,7 @@ pub struct Rewriter<'a, 'm> {
     /// Whether the turn of a loop is being tried.
     is_trying: bool,
     /// Whether every operand was there when it was used.
-    is_sound: bool,
+    pub(super) is_sound: bool,
 }
 
 impl<'a, 'm> Rewriter<'a, 'm> {
@@ -472,229 +471,12 @@ impl<'a, 'm> Rewriter<'a, 'm> {
     }
 
     /// Emits the expressions made since the last statement.
-    fn flush(&mut self) {
+    pub(super) fn flush(&mut self) {
         if let Some(start) = self.run.take() {
             let range = self.expressions.range_from(start);
             if let Some(block) = self.out.last_mut() {
                 block.push(Statement::Emit(range), Span::UNDEFINED);
             }
-        }
-    }
-
-    // Expressions
-
-    /// Makes an expression anew, where a statement emits it.
-    fn compute(&mut self, handle: Handle<Expression>) {
-        let mut expression = self.old.expressions[handle].clone();
-        if let Some(known) = self.folded(&expression) {
-            self.slots[handle.index()] = Slot {
-                known: Some(known),
-                at: None,
-            };
-            return;
-        }
-        if let Expression::Select {
-            condition,
-            accept,
-            reject,
-        } = expression
-            && let Some(truth) = self.slots[condition.index()]
-                .known
-                .as_ref()
-                .and_then(Known::bool)
-        {
-            let taken = if truth { accept } else { reject };
-            self.slots[handle.index()] = self.slots[taken.index()].clone();
-            return;
-        }
-        each_operand(&mut expression, &mut |operand| {
-            *operand = self.operand(*operand);
-        });
-        let span = self.old.expressions.get_span(handle);
-        let start = self.expressions.len();
-        let made = self.expressions.append(expression, span);
-        self.run.get_or_insert(start);
-        self.slots[handle.index()] = Slot {
-            known: None,
-            at: Some(made),
-        };
-    }
-
-    /// What an operand has become, made if it is a known value.
-    fn operand(&mut self, old: Handle<Expression>) -> Handle<Expression> {
-        let slot = &self.slots[old.index()];
-        if let Some(at) = slot.at {
-            return at;
-        }
-        let made = match slot.known.clone() {
-            Some(Known::Composite(ty, parts)) => self.made(&Known::Composite(ty, parts), ty),
-            Some(known @ Known::Scalar(_)) => self.made_literal(&known),
-            // not in a valid module: operands come before their users
-            None => {
-                self.is_sound = false;
-                return old;
-            }
-        };
-        self.slots[old.index()].at = Some(made);
-        made
-    }
-
-    /// An expression for a known value: a literal, or a constant of the module. Neither needs to be emitted.
-    fn made(&mut self, known: &Known, ty: Handle<Type>) -> Handle<Expression> {
-        if matches!(known, Known::Scalar(_)) {
-            return self.made_literal(known);
-        }
-        let key = known.key();
-        if let Some(&made) = self.literals.get(&key) {
-            return made;
-        }
-        let constant = self.pools.constant(known, ty);
-        self.flush();
-        let made = self
-            .expressions
-            .append(Expression::Constant(constant), Span::UNDEFINED);
-        self.literals.insert(key, made);
-        made
-    }
-
-    fn made_literal(&mut self, known: &Known) -> Handle<Expression> {
-        let key = known.key();
-        if let Some(&made) = self.literals.get(&key) {
-            return made;
-        }
-        let literal = known.literal().unwrap_or(Literal::Bool(false));
-        self.flush();
-        let made = self
-            .expressions
-            .append(Expression::Literal(literal), Span::UNDEFINED);
-        self.literals.insert(key, made);
-        made
-    }
-
-    fn known(&self, handle: Handle<Expression>) -> Option<&Known> {
-        self.slots[handle.index()].known.as_ref()
-    }
-
-    /// The value of an expression, if it is known.
-    fn folded(&mut self, expression: &Expression) -> Option<Known> {
-        match *expression {
-            Expression::Load { pointer } => self.loaded(pointer),
-            Expression::Compose { ty, ref components } => {
-                let parts: Option<Vec<Known>> =
-                    components.iter().map(|&c| self.known(c).cloned()).collect();
-                self.pools.composed(ty, |_| parts)
-            }
-            Expression::Splat { size, value } => {
-                let part = self.known(value)?.clone();
-                self.pools.vector(vec![part; size as usize])
-            }
-            Expression::Swizzle {
-                size,
-                vector,
-                pattern,
-            } => {
-                let from = self.known(vector)?;
-                let parts: Option<Vec<Known>> = pattern[..size as usize]
-                    .iter()
-                    .map(|c| from.part(*c as usize).cloned())
-                    .collect();
-                self.pools.vector(parts?)
-            }
-            Expression::AccessIndex { base, index } => {
-                self.known(base)?.part(index as usize).cloned()
-            }
-            Expression::Access { base, index } => {
-                self.known(base)?.part(self.known(index)?.index()?).cloned()
-            }
-            Expression::Unary { op, expr } => fold::unary(op, self.known(expr)?),
-            Expression::Binary { op, left, right } => {
-                let known = fold::binary(op, self.known(left)?, self.known(right)?)?;
-                if fold::compares(op) {
-                    self.pools.retyped(known)
-                } else {
-                    Some(known)
-                }
-            }
-            Expression::Select {
-                condition,
-                accept,
-                reject,
-            } => {
-                let taken = if self.known(condition)?.bool()? {
-                    accept
-                } else {
-                    reject
-                };
-                self.known(taken).cloned()
-            }
-            Expression::Relational { fun, argument } => {
-                fold::relational(fun, self.known(argument)?)
-            }
-            Expression::Math {
-                fun,
-                arg,
-                arg1,
-                arg2,
-                arg3: None,
-            } => {
-                let mut args = vec![self.known(arg)?];
-                for next in [arg1, arg2].into_iter().flatten() {
-                    args.push(self.known(next)?);
-                }
-                fold::math(fun, &args)
-            }
-            Expression::As {
-                expr,
-                kind,
-                convert: Some(4),
-            } => {
-                let known = fold::each(self.known(expr)?, &|x| fold::converted(x, kind))?;
-                self.pools.retyped(known)
-            }
-            _ => None,
-        }
-    }
-
-    /// The value behind a pointer: of a local variable, or of a setting.
-    fn loaded(&self, pointer: Handle<Expression>) -> Option<Known> {
-        if let Expression::LocalVariable(local) = self.old.expressions[pointer] {
-            return self.values.get(&local).cloned();
-        }
-        let read = |(fixed, ty, offset): (&Fixed, _, _)| {
-            let word = |offset, kind| fixed.word(offset, kind);
-            self.pools.read(ty, offset, &word)
-        };
-        if let Some(place) = self.place(pointer) {
-            return read(place);
-        }
-        // a component of a vector has no place of a type of its own
-        let Expression::AccessIndex { base, index } = self.old.expressions[pointer] else {
-            return None;
-        };
-        read(self.place(base)?)?.part(index as usize).cloned()
-    }
-
-    /// The uniform that a pointer points into, the type of the part, and its offset in bytes.
-    fn place(&self, pointer: Handle<Expression>) -> Option<(&Fixed<'a>, Handle<Type>, u32)> {
-        match self.old.expressions[pointer] {
-            Expression::GlobalVariable(global) => {
-                let fixed = self.fixed.iter().find(|fixed| fixed.global == global)?;
-                Some((fixed, fixed.ty, 0))
-            }
-            Expression::AccessIndex { base, index } => {
-                let (fixed, ty, offset) = self.place(base)?;
-                match self.pools.inner(ty) {
-                    TypeInner::Struct { members, .. } => {
-                        let member = members.get(index as usize)?;
-                        Some((fixed, member.ty, offset + member.offset))
-                    }
-                    TypeInner::Array { base, stride, .. } => {
-                        Some((fixed, *base, offset + index * stride))
-                    }
-                    _ => None,
-                }
-            }
-            _ => None,
         }
     }
 }

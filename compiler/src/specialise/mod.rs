@@ -8,6 +8,7 @@
 //! Zadeck, "Constant propagation with conditional branches", 1991), callers before callees.
 
 mod calls;
+mod expressions;
 mod fold;
 mod function;
 mod known;
