@@ -245,9 +245,14 @@ fn real_hypot(x: f32, y: f32) -> f32 {
     let swapped = magnitude(x) < magnitude(y);
     let a = select(x, y, swapped);
     let b = select(y, x, swapped);
-    let square = fma(a, a, b * b);
+    let other = b * b;
+    let square = fma(a, a, other);
     if bitcast<u32>(square) - 0x12800000u < 0x5f000000u {
-        return sqrt(square);
+        let root = sqrt(square);
+        // what the root and the smaller square have lost, where `fma` rounds once; elsewhere `lost` is 0, and the root stays
+        let lost = fma(root, root, -(root * root));
+        let rest = fma(-root, root, square) + fma(b, b, -other);
+        return select(root, fma(rest, 0.5 * inverseSqrt(square), root), lost != 0.0);
     }
     return scaled_hypot3(x, y, 0.0);
 }

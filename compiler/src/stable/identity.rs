@@ -33,7 +33,8 @@ impl Pass {
                 let quotient = quotient.or_else(|| self.ratio(g, a, b));
                 let quotient = quotient.or_else(|| self.in_range(g, a, b));
                 let quotient = quotient.or_else(|| self.cardinal(g, id));
-                quotient.or_else(|| self.constants(g, Prim::Div, a, b))
+                let quotient = quotient.or_else(|| self.constants(g, Prim::Div, a, b));
+                quotient.or_else(|| self.over_length(g, a, b))
             }
             (Prim::Acos, &[a]) => self.acos(g, id, a),
             (Prim::Pow, &[base, exponent]) => self.compound_power(g, id, base, exponent),
@@ -72,6 +73,15 @@ impl Pass {
         } else {
             root_in_middle_of_range(g, self.plain(a), length)
         };
+        self.by(Rule::Hypot, new)
+    }
+
+    /// a divided by a length that is as written in the middle of the range: the quotient is as written there, too. Graphics
+    /// processors round a/√s once, by the inverse root; a choice between divisors would hide the root from them.
+    fn over_length(&mut self, g: &mut Graph, a: Id, b: Id) -> Option<Id> {
+        let length = Length::of(g, b)?;
+        let (written, outside) = (g.div(a, length.written), g.div(a, length.outside));
+        let new = length.choose(g, written, outside);
         self.by(Rule::Hypot, new)
     }
 
@@ -412,13 +422,67 @@ fn is_side(monomial: &Monomial, value: f64) -> bool {
 /// The root of a sum of squares as it is written where the sum is so far from the ends of the range of single precision that
 /// none of its terms counts and was lost, else `outside`.
 fn root_in_middle_of_range(g: &mut Graph, sum: Id, outside: Id) -> Id {
-    let [low, high] = [1e-30, 1e30].map(|x| g.real(x));
+    let [low, high] = [Length::LOW, Length::HIGH].map(|x| g.real(x));
     // the maximum hides the sum of squares from the rule that made this
     let held = g.apply(Prim::Max, &[sum, low]);
     let written = g.apply(Prim::Sqrt, &[held]);
     let (is_above, is_below) = (less(g, low, sum), less(g, sum, high));
-    let new = choose(g, is_below, written, outside);
-    choose(g, is_above, new, outside)
+    let length = Length {
+        is_above,
+        is_below,
+        written,
+        outside,
+    };
+    length.choose(g, written, outside)
+}
+
+/// What [`root_in_middle_of_range`] has made.
+struct Length {
+    /// Whether the sum of squares is not too small for the written form, and whether it is not too large.
+    is_above: Id,
+    is_below: Id,
+    /// The root as it is written.
+    written: Id,
+    /// The form for the ends of the range.
+    outside: Id,
+}
+
+impl Length {
+    /// Sums of squares between these lose nothing to the range of float32.
+    const LOW: f64 = 1e-30;
+    const HIGH: f64 = 1e30;
+
+    fn of(g: &Graph, id: Id) -> Option<Self> {
+        let [is_above, inner, outside] = operands(g, id, Prim::Select)?;
+        let [is_below, written, other] = operands(g, inner, Prim::Select)?;
+        let [held] = operands(g, written, Prim::Sqrt)?;
+        let [sum, low] = operands(g, held, Prim::Max)?;
+        let [below, same] = operands(g, is_above, Prim::Less)?;
+        let is_one = outside == other
+            && (below, same) == (low, sum)
+            && g.as_real(low) == Some(Self::LOW)
+            && operands(g, is_below, Prim::Less).is_some_and(|[s, _]| s == sum);
+        is_one.then_some(Self {
+            is_above,
+            is_below,
+            written,
+            outside,
+        })
+    }
+
+    /// `inside` where the sum of squares is in the middle of the range, else `outside`.
+    fn choose(&self, g: &mut Graph, inside: Id, outside: Id) -> Id {
+        let below = choose(g, self.is_below, inside, outside);
+        choose(g, self.is_above, below, outside)
+    }
+}
+
+/// The operands of an operation, where it is `prim`.
+fn operands<const N: usize>(g: &Graph, id: Id, prim: Prim) -> Option<[Id; N]> {
+    let node = g.node(id);
+    (node.op == Op::Apply(prim))
+        .then(|| node.args.as_slice().try_into().ok())
+        .flatten()
 }
 
 /// Whether 1/c is exact: c is a power of two.

@@ -190,7 +190,7 @@ rules! {
         "factorisation";
     Hypot "hypot", true, "real":
         "√(a² + b²) = hypot(a, b), √(a² + b² + c²) = length(a, b, c), √(c·a²) = √c·|a|",
-        "everywhere, constants that are squares among the terms, too; does not overflow, nor underflow, where the result does not. Where a or b is a product, as written while the sum of the squares is between 10⁻³⁰ and 10³⁰: the rounding of the product would count twice. As in C99, infinite where an argument is, even beside a NaN",
+        "everywhere, constants that are squares among the terms, too; does not overflow, nor underflow, where the result does not. Where a or b is a product, as written while the sum of the squares is between 10⁻³⁰ and 10³⁰, and a quotient by it, too: the rounding of the product would count twice. As in C99, infinite where an argument is, even beside a NaN",
         "W. Kahan 1987; C99 7.12.7.3";
     Asinh "asinh", true, "real":
         "log(x + √(x² + 1)) = asinh x, log(x + √(x² - 1)) = acosh x",
