@@ -248,11 +248,7 @@ fn real_hypot(x: f32, y: f32) -> f32 {
     let other = b * b;
     let square = fma(a, a, other);
     if bitcast<u32>(square) - 0x12800000u < 0x5f000000u {
-        let root = sqrt(square);
-        // what the root and the smaller square have lost, where `fma` rounds once; elsewhere `lost` is 0, and the root stays
-        let lost = fma(root, root, -(root * root));
-        let rest = fma(-root, root, square) + fma(b, b, -other);
-        return select(root, fma(rest, 0.5 * inverseSqrt(square), root), lost != 0.0);
+        return corrected_root(square, fma(b, b, -other));
     }
     return scaled_hypot3(x, y, 0.0);
 }
@@ -280,7 +276,17 @@ fn scaled_hypot3(x: f32, y: f32, z: f32) -> f32 {
     let exponent = clamp(bitcast<u32>(max(max(a, b), c)) >> 23u, 1u, 253u);
     let scale = bitcast<f32>((254u - exponent) << 23u);
     let v = vec3f(a, b, c) * scale;
-    return sqrt(v.x * v.x + v.y * v.y + v.z * v.z) * bitcast<f32>(exponent << 23u);
+    return corrected_root(v.x * v.x + v.y * v.y + v.z * v.z, 0.0) * bitcast<f32>(exponent << 23u);
+}
+
+/// √(square + rest) for a normal square and a rest that is far smaller. Where `fma` rounds once, `sqrt` may be off by more
+/// than an IEEE root, and one step of Newton's mends it; where it rounds twice, there is no telling, and the root stays.
+fn corrected_root(square: f32, rest: f32) -> f32 {
+    let root = sqrt(square);
+    // the square of an odd significand is no float32
+    let odd = bitcast<f32>(bitcast<u32>(root) | 1u);
+    let is_fused = fma(odd, odd, -(odd * odd)) != 0.0;
+    return select(root, fma(fma(-root, root, square) + rest, 0.5 * inverseSqrt(square), root), is_fused);
 }
 
 /// The real cube root, odd: the exponent divided by three (Kahan), then Newton's iteration.

@@ -76,12 +76,16 @@ impl Pass {
         self.by(Rule::Hypot, new)
     }
 
-    /// a divided by a length that is as written in the middle of the range: the quotient is as written there, too. Graphics
-    /// processors round a/√s once, by the inverse root; a choice between divisors would hide the root from them.
+    /// a divided by a length that is as written in the middle of the range: a/√s there, a/1/length elsewhere. Graphics
+    /// processors round a/√s once, by the inverse root, which a choice between divisors or quotients would hide from them.
     fn over_length(&mut self, g: &mut Graph, a: Id, b: Id) -> Option<Id> {
         let length = Length::of(g, b)?;
-        let (written, outside) = (g.div(a, length.written), g.div(a, length.outside));
-        let new = length.choose(g, written, outside);
+        let one = g.real(1.0);
+        let square = length.choose(g, length.square, one);
+        let root = g.apply(Prim::Sqrt, &[square]);
+        let rest = length.choose(g, one, length.outside);
+        let quotient = g.div(a, root);
+        let new = g.div(quotient, rest);
         self.by(Rule::Hypot, new)
     }
 
@@ -430,7 +434,7 @@ fn root_in_middle_of_range(g: &mut Graph, sum: Id, outside: Id) -> Id {
     let length = Length {
         is_above,
         is_below,
-        written,
+        square: held,
         outside,
     };
     length.choose(g, written, outside)
@@ -441,8 +445,8 @@ struct Length {
     /// Whether the sum of squares is not too small for the written form, and whether it is not too large.
     is_above: Id,
     is_below: Id,
-    /// The root as it is written.
-    written: Id,
+    /// The sum of squares, held above the lower end.
+    square: Id,
     /// The form for the ends of the range.
     outside: Id,
 }
@@ -465,7 +469,7 @@ impl Length {
         is_one.then_some(Self {
             is_above,
             is_below,
-            written,
+            square: held,
             outside,
         })
     }

@@ -4,6 +4,7 @@
 //! there is that of the `f64` evaluator, which computes the formula as it is written; only formulas count of which it gives
 //! the right float32 at every point of the table, where the exact value is known to 110 bits.
 
+use std::collections::HashSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use pullback_compiler::formula::Formula;
@@ -20,6 +21,9 @@ pub const POINTS: usize = 4096;
 /// A mean difference of so many of its standard errors is no chance: it would be one of 9,000 formulas that are equal.
 pub const SIGMAS: f64 = 3.7;
 
+/// Points that are shown of a formula that is worse, each with other results.
+pub const EXAMPLES: usize = 8;
+
 /// What `accurate` loses in two forms of a formula, at the same points.
 #[derive(Clone, Debug)]
 pub struct Paired {
@@ -33,6 +37,19 @@ pub struct Paired {
     pub more: f64,
     /// The standard error of that mean.
     pub error: f64,
+    /// Where the second loses the most more, at most [`EXAMPLES`] points.
+    pub examples: Vec<Example>,
+}
+
+/// A point at which the second form is worse.
+#[derive(Clone, Debug)]
+pub struct Example {
+    /// The arguments.
+    pub args: Vec<f32>,
+    /// The right value.
+    pub exact: f64,
+    /// What the two forms give.
+    pub got: [f64; 2],
 }
 
 impl Paired {
@@ -55,6 +72,7 @@ impl Paired {
             before: before.iter().sum::<f64>() / count,
             more,
             error: (variance / count).sqrt(),
+            examples: Vec::new(),
         }
     }
 }
@@ -87,18 +105,35 @@ pub fn compare(
     machine: &Machine,
     points: &[Sample],
 ) -> Result<Option<Paired>, String> {
-    let mut lost = Vec::new();
-    for form in forms {
-        let Some(got) = results(form, machine, Precision::Accurate, points)? else {
-            return Ok(None);
-        };
+    let of = |form| results(form, machine, Precision::Accurate, points);
+    let (Some(before), Some(after)) = (of(forms[0])?, of(forms[1])?) else {
+        return Ok(None);
+    };
+    let lost = [&before, &after].map(|got| {
         let bits = points.iter().zip(got);
-        lost.push(
-            bits.map(|(p, x)| p.exact.single_error(x))
-                .collect::<Vec<_>>(),
-        );
+        bits.map(|(p, &x)| p.exact.single_error(x))
+            .collect::<Vec<_>>()
+    });
+    let mut pair = Paired::new(id, &lost[0], &lost[1]);
+    if pair.is_worse() {
+        pair.examples = examples(points, [&before, &after], &lost);
     }
-    Ok(Some(Paired::new(id, &lost[0], &lost[1])))
+    Ok(Some(pair))
+}
+
+/// The points at which the second form loses the most more.
+fn examples(points: &[Sample], got: [&[f64]; 2], lost: &[Vec<f64>; 2]) -> Vec<Example> {
+    let more = |k: usize| lost[1][k] - lost[0][k];
+    let mut order: Vec<usize> = (0..points.len()).filter(|&k| more(k) > 0.0).collect();
+    order.sort_by(|&a, &b| more(b).total_cmp(&more(a)));
+    let at = |k: usize| Example {
+        args: points[k].args.clone(),
+        exact: points[k].exact.hi,
+        got: got.map(|of| of[k]),
+    };
+    let mut seen = HashSet::new();
+    order.retain(|&k| seen.insert(got.map(|of| of[k].to_bits())));
+    order.into_iter().take(EXAMPLES).map(at).collect()
 }
 
 /// Points with their values, or `None` where `f64` does not give the right ones.
@@ -179,6 +214,10 @@ pub fn table(pairs: &[Paired]) -> String {
             "{}\t{}\t{:.4}\t{:.4}\t{:.4}\t{verdict}\n",
             pair.id, pair.points, pair.before, pair.more, pair.error
         );
+        for Example { args, exact, got } in &pair.examples {
+            let [before, after] = got;
+            out += &format!("#   at {args:?}: {exact:e}, before {before:e}, after {after:e}\n");
+        }
     }
     let worse = pairs.iter().filter(|p| p.is_worse()).count();
     let above = pairs.iter().filter(|p| p.more > 0.0).count();
