@@ -14,6 +14,7 @@ mod fmt;
 mod functions;
 mod gallery;
 mod json;
+mod measure;
 mod mesh;
 mod overrides;
 mod place;
@@ -85,6 +86,9 @@ enum Command {
     /// Compare two pictures, in numbers and to the eye
     #[command(after_help = diff::EXIT_CODES)]
     Diff(diff::DiffArguments),
+    /// Measure what each choice between speed and accuracy costs and gives, for one picture
+    #[command(after_help = EXIT_CODES)]
+    Measure(measure::MeasureArguments),
     /// Show what is computed on the way to a pixel, and where machines part
     #[command(after_help = EXIT_CODES)]
     Probe(probe::ProbeArguments),
@@ -308,6 +312,7 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
         Command::Eval(arguments) => eval::run(&arguments, console),
         Command::Gallery(arguments) => gallery::run(&arguments, console),
         Command::Diff(arguments) => diff::run(&arguments, console),
+        Command::Measure(arguments) => measure::run(&arguments, console),
         Command::Probe(arguments) => probe::run(&arguments, console),
         Command::Doctor(arguments) => doctor::run(&arguments, console),
         Command::Accuracy(arguments) => accuracy::run(&arguments, console),

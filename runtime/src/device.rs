@@ -314,6 +314,12 @@ impl Gpu {
         }
     }
 
+    /// Whether the device is gone, and everything that is asked of it fails.
+    #[must_use]
+    pub fn is_lost(&self) -> bool {
+        lock(&self.faults).lost.is_some()
+    }
+
     /// Reports, once, an error that came outside of any scope, and, always, the loss of the device.
     fn healthy(&self, during: &'static str) -> Result<(), Error> {
         let mut faults = lock(&self.faults);

@@ -3,6 +3,7 @@
 mod linear;
 
 pub use linear::MAX_LINEAR_PIXELS;
+pub(crate) use linear::srgb_encode;
 
 use std::io::{self, Write};
 use std::path::Path;

@@ -29,6 +29,7 @@ pub mod evaluate;
 pub mod executor;
 pub mod image_file;
 pub mod kernel;
+pub mod measure;
 pub mod mesh;
 pub mod probe;
 pub mod render;
@@ -37,6 +38,7 @@ pub mod shader;
 pub mod trace;
 
 mod buffers;
+mod clock;
 mod pool;
 mod scale;
 mod tiles;

@@ -10,6 +10,7 @@ use std::time::Instant;
 use pullback_compiler::lower::Format;
 use pullback_compiler::{SceneModule, SettingValue};
 
+use crate::clock::Clock;
 use crate::probe::turns;
 use crate::tiles::{self, Budget, Pending, Tile};
 use crate::uniforms::{self, MAX_PARAMS, ViewUniform, WideWords};
@@ -269,6 +270,51 @@ impl Renderer {
         self.check(frame)?;
         let budget = self.budget(frame)?;
         self.render_within(frame, budget, sink)
+    }
+
+    /// Seconds for a picture by the device's own clock, the mean of `repeats` in one submission; `None` where it has none,
+    /// where the whole picture does not fit one pass, or where its loops might end early. What is drawn is not read: a caller
+    /// knows from [`Self::render`] that a picture is short enough for a submission.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    pub fn device_time(&mut self, frame: &Frame, repeats: u32) -> Result<Option<f64>, Error> {
+        self.check(frame)?;
+        let gpu = self.gpu.clone();
+        let Some(clock) = Clock::new(&gpu)?.filter(|_| self.turns.is_none()) else {
+            return Ok(None);
+        };
+        self.upload(frame)?;
+        let Size { width, height } = frame.size;
+        let tile = Tile {
+            x: 0,
+            y: 0,
+            width,
+            height,
+        };
+        let view = view_uniform(frame, tile);
+        gpu.guarded("upload", || {
+            let queue = gpu.queue();
+            queue.write_buffer(&self.uniforms.view, 0, bytemuck::bytes_of(&view));
+            queue.submit([]);
+        })?;
+        let uniforms = self.uniforms.share();
+        let (slot, pipeline) = match frame.pipeline {
+            Pipeline::Linear => (&mut self.linear, Pipeline::Linear),
+            Pipeline::Compute | Pipeline::Fragment => (&mut self.compute, Pipeline::Compute),
+        };
+        let stage = match slot {
+            Some(stage) => stage,
+            empty => empty.insert(ComputeStage::new(&gpu, &self.shader, pipeline)?),
+        };
+        let fits = tile.pixels() <= stage.max_pixels() && width.max(height) <= stage.max_side();
+        if !fits {
+            return Ok(None);
+        }
+        let (encoder, _) = stage.pass(&gpu, &uniforms, tile, repeats, Some(&clock))?;
+        let submission = gpu.guarded("timing", || gpu.queue().submit([encoder.finish()]))?;
+        gpu.wait("timing", submission)?;
+        Ok(Some(clock.read(&gpu)? / f64::from(repeats.max(1))))
     }
 
     fn budget(&mut self, frame: &Frame) -> Result<Budget, Error> {

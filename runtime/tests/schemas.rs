@@ -50,6 +50,27 @@ fn differences_of_pictures() {
 }
 
 #[test]
+fn measurements() {
+    let small = ["--size", "32x24", "--budget", "2", "--adapter", "software"];
+    let found = fitting(
+        "measure-1",
+        &[&["measure", "sin-rings.pull"], &small[..]].concat(),
+    );
+    assert_eq!(found["choices"][0]["name"], "default");
+    assert_eq!(found["truth"]["pixels"], 32 * 24);
+    refused("measure-1", &found, |v| v["version"] = json!(2));
+    refused("measure-1", &found, |v| {
+        v["choices"][0]["on_front"] = json!("yes")
+    });
+    refused("measure-1", &found, |v| {
+        v["choices"][0]["error"]["more"] = json!(1)
+    });
+    refused("measure-1", &found, |v| {
+        v["advice"]["unseen"] = json!("none")
+    });
+}
+
+#[test]
 fn probes() {
     let on = ["--on", "ieee32,reference"];
     let point = [

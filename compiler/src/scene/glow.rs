@@ -56,7 +56,8 @@ pub const SCENE: Scene = Scene {
             400.0,
             (8.0, 8192.0),
             "shortest steps that the diagonal of the box is divided into",
-        ),
+        )
+        .trading(),
         SettingSpec::real(
             "fade",
             0.3,

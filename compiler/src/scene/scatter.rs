@@ -50,13 +50,15 @@ pub const SCENE: Scene = Scene {
             128.0,
             (4.0, 4096.0),
             "stretches that the diagonal of the box is divided into, on the way to the eye",
-        ),
+        )
+        .trading(),
         SettingSpec::integer(
             "light_steps",
             32.0,
             (1.0, 4096.0),
             "the same on the way from the light, for each of those stretches",
-        ),
+        )
+        .trading(),
         space::STEPS_BY,
         camera::CAMERA,
         camera::PROJECTION,

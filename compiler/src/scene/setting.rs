@@ -37,6 +37,9 @@ pub struct SettingSpec {
     pub default: DVec3,
     /// Least and greatest value of each component.
     pub range: (f64, f64),
+    /// Whether it trades speed for accuracy and leaves what is shown alone: more of it is slower and nearer to the truth; of
+    /// words, each is a way to the same picture.
+    pub trades: bool,
 }
 
 impl SettingSpec {
@@ -54,6 +57,7 @@ impl SettingSpec {
             kind: SettingKind::Real,
             default: DVec3::splat(default),
             range,
+            trades: false,
         }
     }
 
@@ -71,6 +75,7 @@ impl SettingSpec {
             kind: SettingKind::Integer,
             default: DVec3::splat(default),
             range,
+            trades: false,
         }
     }
 
@@ -88,6 +93,7 @@ impl SettingSpec {
             kind: SettingKind::Vec3,
             default: DVec3::from_array(default),
             range,
+            trades: false,
         }
     }
 
@@ -111,6 +117,7 @@ impl SettingSpec {
             kind: SettingKind::Choice(words),
             default: DVec3::splat(default),
             range: (0.0, f64::INFINITY),
+            trades: false,
         }
     }
 
@@ -123,7 +130,15 @@ impl SettingSpec {
             kind: SettingKind::Function,
             default: DVec3::ZERO,
             range: (f64::NEG_INFINITY, f64::INFINITY),
+            trades: false,
         }
+    }
+
+    /// The same setting, known to trade speed for accuracy.
+    #[must_use]
+    pub const fn trading(mut self) -> Self {
+        self.trades = true;
+        self
     }
 
     /// The centre of the view of a plane scene.
@@ -135,6 +150,7 @@ impl SettingSpec {
             kind: SettingKind::Vec2,
             default: DVec3::ZERO,
             range: (f64::NEG_INFINITY, f64::INFINITY),
+            trades: false,
         }
     }
 

@@ -120,7 +120,8 @@ pub(super) const STEPS: SettingSpec = SettingSpec::integer(
     160.0,
     (8.0, 4096.0),
     "samples along the diagonal of the box",
-);
+)
+.trading();
 pub(super) const WALL_OPACITY: SettingSpec = SettingSpec::real(
     "wall_opacity",
     1.0,
@@ -236,13 +237,15 @@ pub(super) const STRETCHES: SettingSpec = SettingSpec::integer(
     200.0,
     (4.0, 8192.0),
     "stretches that the diagonal of the box is divided into",
-);
+)
+.trading();
 pub(super) const STEPS_BY: SettingSpec = SettingSpec::choice(
     "steps_by",
     &["auto", "samples", "integral"],
     0.0,
     "optical depths by the density at points, by its closed-form integrals, or by these where that is faster",
-);
+)
+.trading();
 pub(super) const EMISSION: SettingSpec = SettingSpec::choice(
     "emission",
     &["graded", "even"],

@@ -22,7 +22,8 @@ pub const SCENE: Scene = Scene {
             160.0,
             (8.0, 4096.0),
             "samples along the diagonal of the box",
-        ),
+        )
+        .trading(),
         camera::CAMERA,
         camera::PROJECTION,
         camera::YAW,

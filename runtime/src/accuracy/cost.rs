@@ -11,9 +11,10 @@ use pullback_compiler::{EvalModule, What};
 
 use super::evaluators::{Machine, Point};
 use super::random::{Random, Spread};
-use super::stopwatch::{Clock, Timed};
+use super::stopwatch::Timed;
 use super::subjects::{Subject, formula};
 use super::tables::Domain;
+use crate::clock::Clock;
 use crate::{Capabilities, Error, Gpu};
 
 /// Most steps of a loop (docs/limits.md).

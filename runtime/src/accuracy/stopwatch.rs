@@ -1,86 +1,16 @@
 //! The time that a dispatch takes, by the device's clock or by ours.
 
-use std::sync::mpsc;
 use std::time::Instant;
 
 use pullback_compiler::EvalModule;
 use pullback_compiler::lower::Format;
 
+use crate::clock::Clock;
 use crate::uniforms::{self, BatchUniform, MAX_PARAMS, WideWords};
 use crate::{Error, Gpu, buffers, evaluate, shader};
 
 /// Size of a workgroup of `compute_main`.
 const WORKGROUP: u32 = 64;
-
-/// Two timestamps of the device, around a pass.
-#[derive(Debug)]
-pub(super) struct Clock {
-    queries: wgpu::QuerySet,
-    resolved: wgpu::Buffer,
-    readable: wgpu::Buffer,
-    seconds: f64,
-}
-
-impl Clock {
-    /// `None` where the device has none. Software adapters have one that says little; they are timed from outside.
-    pub(super) fn new(gpu: &Gpu) -> Result<Option<Self>, Error> {
-        let device = gpu.device();
-        if gpu.adapter().is_software()
-            || !device.features().contains(wgpu::Features::TIMESTAMP_QUERY)
-        {
-            return Ok(None);
-        }
-        let buffer = |usage| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("timestamps"),
-                size: 16,
-                usage: usage | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
-        };
-        gpu.guarded("allocation", || Self {
-            queries: device.create_query_set(&wgpu::QuerySetDescriptor {
-                label: Some("timestamps"),
-                ty: wgpu::QueryType::Timestamp,
-                count: 2,
-            }),
-            resolved: buffer(wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC),
-            readable: buffer(wgpu::BufferUsages::MAP_READ),
-            seconds: f64::from(gpu.queue().get_timestamp_period()) * 1e-9,
-        })
-        .map(Some)
-    }
-
-    /// Seconds between the two timestamps of the last submission.
-    fn read(&self, gpu: &Gpu) -> Result<f64, Error> {
-        let during = "reading timestamps";
-        let failed = |reason: String| Error::Device { during, reason };
-        let (sender, receiver) = mpsc::channel();
-        let submission = gpu.guarded(during, || {
-            let report = move |mapped| {
-                let _ = sender.send(mapped);
-            };
-            self.readable.map_async(wgpu::MapMode::Read, .., report);
-            gpu.queue().submit([])
-        })?;
-        gpu.wait(during, submission)?;
-        receiver
-            .try_recv()
-            .map_err(|error| failed(error.to_string()))?
-            .map_err(|error| failed(error.to_string()))?;
-        let ticks = {
-            let view = self
-                .readable
-                .slice(..)
-                .get_mapped_range()
-                .map_err(|error| failed(error.to_string()))?;
-            let word = |k: usize| bytemuck::pod_read_unaligned::<u64>(&view[8 * k..8 * k + 8]);
-            word(1).saturating_sub(word(0))
-        };
-        self.readable.unmap();
-        Ok(ticks as f64 * self.seconds)
-    }
-}
 
 /// An evaluation shader with rows to evaluate, ready to be timed.
 #[derive(Debug)]
@@ -191,19 +121,14 @@ impl<'g> Timed<'g> {
             {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                     label: Some("timed"),
-                    timestamp_writes: self.clock.map(|clock| wgpu::ComputePassTimestampWrites {
-                        query_set: &clock.queries,
-                        beginning_of_pass_write_index: Some(0),
-                        end_of_pass_write_index: Some(1),
-                    }),
+                    timestamp_writes: self.clock.map(Clock::around),
                 });
                 pass.set_pipeline(&self.pipeline);
                 pass.set_bind_group(0, &self.bindings, &[]);
                 pass.dispatch_workgroups(self.groups, 1, 1);
             }
             if let Some(clock) = self.clock {
-                encoder.resolve_query_set(&clock.queries, 0..2, &clock.resolved, 0);
-                encoder.copy_buffer_to_buffer(&clock.resolved, 0, &clock.readable, 0, 16);
+                clock.resolve(&mut encoder);
             }
             encoder
         })?;

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Seek};
 use std::path::Path;
 
+use crate::image_file::srgb_encode;
 use crate::render::MAX_SIDE;
 use crate::{Error, Size};
 
@@ -36,6 +37,35 @@ impl Bitmap {
             size,
             rgb: rgb.flat_map(|&[r, g, b, _]| [r, g, b]).collect(),
         })
+    }
+
+    /// The picture of pixels of linear light, premultiplied by alpha, before black; without dithering.
+    ///
+    /// # Errors
+    /// As [`Self::from_rgba`].
+    pub fn from_linear(size: Size, linear: &[[f32; 4]]) -> Result<Self, Error> {
+        let byte = |x: f32| (srgb_encode(x) * 255.0).round() as u8;
+        let rgba = linear
+            .iter()
+            .flat_map(|&[r, g, b, _]| [byte(r), byte(g), byte(b), 255]);
+        Self::from_rgba(size, &rgba.collect::<Vec<_>>())
+    }
+
+    /// The picture as a PNG file.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the encoder refuses its size.
+    pub fn png(&self) -> Result<Vec<u8>, Error> {
+        let mut out = Vec::new();
+        let mut encoder = png::Encoder::new(&mut out, self.size.width, self.size.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        let written = encoder.write_header().and_then(|mut writer| {
+            writer.write_image_data(&self.rgb)?;
+            writer.finish()
+        });
+        written.map_err(io::Error::from)?;
+        Ok(out)
     }
 
     /// Reads a PNG file of any kind. 16 bits are cut to 8; colours are taken for sRGB, whatever the file says of them.

@@ -6,7 +6,7 @@ mod perceptual;
 
 pub use bitmap::Bitmap;
 pub use numeric::{Channel, Numeric, SHARES};
-pub use perceptual::{PIXELS_PER_DEGREE, Perceptual};
+pub use perceptual::{PIXELS_PER_DEGREE, Perceptual, heat_map};
 
 use crate::{Error, Size};
 

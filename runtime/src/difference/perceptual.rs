@@ -84,21 +84,33 @@ impl Perceptual {
     /// # Errors
     /// [`Error::Io`]; there is no file then.
     pub fn write_heat_map(&self, path: &std::path::Path, metadata: &Metadata) -> Result<(), Error> {
-        let palette = nv_flip::magma_lut().to_vec();
-        let palette = palette.as_chunks::<3>().0;
+        let heat = heat(&self.map);
         image_file::write_png(path, self.size, metadata, |sink| {
-            for row in self.map.chunks(self.size.width.max(1) as usize) {
-                let colour = |value: &f32| {
-                    let place = (value.clamp(0.0, 1.0) * 255.0).round() as usize;
-                    let [r, g, b] = palette.get(place).copied().unwrap_or_default();
-                    [r, g, b, u8::MAX]
-                };
-                let row: Vec<u8> = row.iter().flat_map(colour).collect();
-                sink.rows(&row)?;
-            }
+            let row = 4 * self.size.width.max(1) as usize;
+            heat.chunks(row).try_for_each(|row| sink.rows(row))?;
             Ok(())
         })
     }
+}
+
+/// Values from 0 to 1 in magma, four bytes each.
+fn heat(values: &[f32]) -> Vec<u8> {
+    let palette = nv_flip::magma_lut().to_vec();
+    let palette = palette.as_chunks::<3>().0;
+    let colour = |value: &f32| {
+        let place = (value.clamp(0.0, 1.0) * 255.0).round() as usize;
+        let [r, g, b] = palette.get(place).copied().unwrap_or_default();
+        [r, g, b, u8::MAX]
+    };
+    values.iter().flat_map(colour).collect()
+}
+
+/// The picture of FLIP values as [`Perceptual::write_heat_map`] draws it.
+///
+/// # Errors
+/// [`Error::Invalid`] if there are not as many as the size says.
+pub fn heat_map(size: Size, values: &[f32]) -> Result<Bitmap, Error> {
+    Bitmap::from_rgba(size, &heat(values))
 }
 
 /// FLIP of every pixel, computed in stripes by all cores.

@@ -25,7 +25,7 @@ mod translate;
 pub use cost::{Charge, Issued, Kind, WARP};
 pub use fault::{Fault, LoopKind, LoopSite};
 pub use machine::{Limits, MAX_FORMULA_TURNS, MAX_STEPS, MAX_TURNS, Machine};
-pub use painter::Painter;
+pub use painter::{Painter, Window};
 pub use program::{Buffer, Component, Contraction, Options, Program, Start, Watched};
 pub use rows::Rows;
 pub use trace::{Event, Observer, Shown, Site, SiteKind};

@@ -14,7 +14,7 @@ use super::program::{Component, Contraction, Options, Program, Start, Watched};
 use super::{Arithmetic, Observer};
 use crate::Error;
 use crate::pool::spread;
-use crate::render::{Frame, Pipeline, RowSink};
+use crate::render::{Frame, Pipeline, RowSink, Size};
 use crate::tiles::Tile;
 use crate::uniforms::WideWords;
 
@@ -25,6 +25,28 @@ const _: () = assert!((SIDE * SIDE) as usize == LANES);
 const TILE: u32 = 32;
 /// Most pixels that are worked off before their rows are handed over.
 const BAND: u32 = 1 << 22;
+
+/// A rectangle of pixels of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Column of its left edge.
+    pub x: u32,
+    /// Row of its top edge.
+    pub y: u32,
+    /// Columns and rows.
+    pub size: Size,
+}
+
+impl From<Window> for Tile {
+    fn from(window: Window) -> Self {
+        Self {
+            x: window.x,
+            y: window.y,
+            width: window.size.width,
+            height: window.size.height,
+        }
+    }
+}
 
 /// A scene's picture, to be computed on the processor.
 #[derive(Debug)]
@@ -160,6 +182,27 @@ impl Painter {
         Ok(())
     }
 
+    /// Linear colours, with alpha, of the pixels of parts of the picture, each a row after the other, until `cancel` is set.
+    /// Only of a painter for [`Pipeline::Linear`].
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    pub fn windows(
+        &self,
+        frame: &Frame,
+        settings: &[SettingValue],
+        windows: &[Window],
+        cancel: &AtomicBool,
+    ) -> Result<Vec<Vec<[f32; 4]>>, Error> {
+        frame.check()?;
+        let tiles: Vec<Tile> = windows.iter().map(|&window| window.into()).collect();
+        let drawn = self.drawn(frame, settings, &tiles, cancel, &mut |_| ())?;
+        let number = |word: &u64| f32::from_bits(*word as u32);
+        let colour = |words: &[u64; 4]| words.each_ref().map(number);
+        let colours = |words: &Vec<u64>| words.as_chunks().0.iter().map(colour).collect();
+        Ok(drawn.iter().map(colours).collect())
+    }
+
     fn band(
         &self,
         frame: &Frame,
@@ -169,6 +212,23 @@ impl Painter {
         progress: &mut dyn FnMut(u64),
     ) -> Result<Vec<u8>, Error> {
         let tiles = tiles(band);
+        let drawn = self.drawn(frame, settings, &tiles, cancel, progress)?;
+        let mut pixels = vec![0; band.pixels() as usize * self.words * 4];
+        for (tile, colours) in tiles.iter().zip(&drawn) {
+            place(&mut pixels, band, *tile, (colours, self.words));
+        }
+        Ok(pixels)
+    }
+
+    /// Colours of the pixels of tiles, as `image` has them, by all cores; `progress` hears how many are new.
+    fn drawn(
+        &self,
+        frame: &Frame,
+        settings: &[SettingValue],
+        tiles: &[Tile],
+        cancel: &AtomicBool,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<Vec<Vec<u64>>, Error> {
         let cores = available_parallelism().map_or(1, usize::from);
         let mut workers = Vec::new();
         for _ in 0..cores.min(tiles.len()) {
@@ -185,26 +245,25 @@ impl Painter {
             }
             drawn
         };
+        let total: u64 = tiles.iter().map(|tile| tile.pixels()).sum();
         let mut finished = 0;
-        let drawn = spread(workers, &tiles, work, || {
+        let found = spread(workers, tiles, work, || {
             finished += 1;
-            progress(
-                band.pixels() * finished / tiles.len() as u64
-                    - band.pixels() * (finished - 1) / tiles.len() as u64,
-            );
+            let count = tiles.len() as u64;
+            progress(total * finished / count - total * (finished - 1) / count);
         });
-        let mut pixels = vec![0; band.pixels() as usize * self.words * 4];
         let mut fault = None;
-        for (tile, drawn) in tiles.iter().zip(drawn) {
-            match drawn {
-                Some(Ok(colours)) => place(&mut pixels, band, *tile, (&colours, self.words)),
+        let mut drawn = Vec::with_capacity(tiles.len());
+        for colours in found {
+            match colours {
+                Some(Ok(colours)) => drawn.push(colours),
                 // what others met goes before their being stopped for it
                 Some(Err(Fault::Cancelled)) => fault = fault.or(Some(Fault::Cancelled)),
                 Some(Err(other)) => return Err(other.into()),
                 None => return Err(Fault::unsupported("a picture of this kind").into()),
             }
         }
-        fault.map_or(Ok(pixels), |fault| Err(fault.into()))
+        fault.map_or(Ok(drawn), |fault| Err(fault.into()))
     }
 
     /// Colours of a tile's pixels, as `image` has them.

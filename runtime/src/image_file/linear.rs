@@ -25,7 +25,7 @@ pub(super) enum Depth {
 }
 
 /// sRGB of linear light in 0..1 (IEC 61966-2-1), in f64 so that 16 bits are right.
-fn srgb_encode(linear: f32) -> f64 {
+pub(crate) fn srgb_encode(linear: f32) -> f64 {
     let x = f64::from(linear);
     if x.is_nan() {
         0.0

@@ -2,6 +2,7 @@
 
 use super::{Pipeline, Recorded, Stage, Uniforms, input_layout};
 use crate::buffers::Growing;
+use crate::clock::Clock;
 use crate::tiles::Tile;
 use crate::{Error, Gpu};
 
@@ -108,8 +109,32 @@ impl Stage for ComputeStage {
 
     fn record(&mut self, gpu: &Gpu, uniforms: &Uniforms, tile: Tile) -> Result<Recorded, Error> {
         let bytes = tile.pixels() * self.bytes_per_pixel;
-        let (image, new) = self.image.at_least(gpu, bytes)?;
         let (readable, _) = self.readable.at_least(gpu, bytes)?;
+        let (mut encoder, image) = self.pass(gpu, uniforms, tile, 1, None)?;
+        gpu.guarded("recording", || {
+            encoder.copy_buffer_to_buffer(&image, 0, &readable, 0, bytes);
+        })?;
+        Ok(Recorded {
+            encoder,
+            readable,
+            bytes,
+            stride: tile.width as usize * self.bytes_per_pixel as usize,
+        })
+    }
+}
+
+impl ComputeStage {
+    /// The pass over a tile, so many times, with the clock's readings around it, and the buffer that it fills.
+    pub(super) fn pass(
+        &mut self,
+        gpu: &Gpu,
+        uniforms: &Uniforms,
+        tile: Tile,
+        repeats: u32,
+        clock: Option<&Clock>,
+    ) -> Result<(wgpu::CommandEncoder, wgpu::Buffer), Error> {
+        let bytes = tile.pixels() * self.bytes_per_pixel;
+        let (image, new) = self.image.at_least(gpu, bytes)?;
         if new {
             self.bindings = None;
         }
@@ -129,23 +154,25 @@ impl Stage for ComputeStage {
             });
             let mut encoder = device.create_command_encoder(&Default::default());
             {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label: Some("compute"),
+                    timestamp_writes: clock.map(Clock::around),
+                });
                 pass.set_pipeline(&self.pipeline);
                 pass.set_bind_group(0, &*bindings, &[]);
-                pass.dispatch_workgroups(
-                    tile.width.div_ceil(WORKGROUP),
-                    tile.height.div_ceil(WORKGROUP),
-                    1,
-                );
+                for _ in 0..repeats {
+                    pass.dispatch_workgroups(
+                        tile.width.div_ceil(WORKGROUP),
+                        tile.height.div_ceil(WORKGROUP),
+                        1,
+                    );
+                }
             }
-            encoder.copy_buffer_to_buffer(&image, 0, &readable, 0, bytes);
+            if let Some(clock) = clock {
+                clock.resolve(&mut encoder);
+            }
             encoder
         })?;
-        Ok(Recorded {
-            encoder,
-            readable,
-            bytes,
-            stride: tile.width as usize * self.bytes_per_pixel as usize,
-        })
+        Ok((encoder, image))
     }
 }

@@ -1,0 +1,181 @@
+//! `pullback measure` as a user meets it.
+
+mod shared;
+
+use serde_json::Value;
+use shared::pullback;
+
+/// What a run finds; the picture and the budget are small.
+fn found(formula: &str, more: &[&str]) -> Value {
+    found_within(formula, ["64x48", "90"], more)
+}
+
+fn found_within(formula: &str, [size, budget]: [&str; 2], more: &[&str]) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let small = ["--size", size, "--budget", budget, "--adapter", "software"];
+    let arguments = [
+        &["measure", formula, "--format", "json", "-q"],
+        &small[..],
+        more,
+    ]
+    .concat();
+    let (code, out, errors) = pullback(folder.path(), &arguments);
+    assert_eq!(code, 0, "{formula}: {errors}");
+    serde_json::from_str(&out).unwrap()
+}
+
+fn choice<'a>(found: &'a Value, name: &str) -> &'a Value {
+    let all = found["choices"].as_array().unwrap();
+    let names = || all.iter().map(|c| &c["name"]).collect::<Vec<_>>();
+    let one = all.iter().find(|c| c["name"] == name);
+    one.unwrap_or_else(|| panic!("{name} is not among {:?}", names()))
+}
+
+fn flip(found: &Value, name: &str) -> f64 {
+    choice(found, name)["error"]["flip"]["mean"]
+        .as_f64()
+        .unwrap()
+}
+
+#[test]
+fn more_samples_are_nearer_to_the_truth() {
+    let found = found("sin(9x y)", &[]);
+    let names = ["samples = 1", "default", "samples = 3", "samples = 4"];
+    let errors = names.map(|name| flip(&found, name));
+    assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
+    assert!(errors[3] > 0.0);
+    // the truth has eight samples along each axis; half of those are four
+    let own = found["truth"]["own_error"]["flip"]["mean"]
+        .as_f64()
+        .unwrap();
+    assert!(
+        own > 0.2 * errors[3] && own < 5.0 * errors[3],
+        "{own}, {errors:?}"
+    );
+    let front = &choice(&found, "samples = 4")["on_front"];
+    assert_eq!(*front, true);
+}
+
+#[test]
+fn a_tier_that_cannot_hold_the_numbers_is_found_out() {
+    // bands of a number that binary32 rounds to steps of 1/8
+    let found = found(
+        "sin(3(x + 2000000) - 6000000)",
+        &["--rewrites", "off", "--try", "precision=double samples=4"],
+    );
+    let [single, double] = ["default", "double"].map(|name| flip(&found, name));
+    assert!(single > 3.0 * double, "{single} {double}");
+    let best = flip(&found, "precision = double, samples = 4");
+    assert!(best < double, "{best} {double}");
+}
+
+#[test]
+fn steps_of_a_volume_are_traded() {
+    let formula =
+        "f(x, y, z) = exp(-3(x^2 + y^2 + z^2)) cos(4x)\nshow volume(f) { steps = 16, jitter = 0 }";
+    let found = found(formula, &["--samples", "1"]);
+    let names = [
+        "steps = 4",
+        "steps = 8",
+        "default",
+        "steps = 32",
+        "steps = 64",
+    ];
+    let errors = names.map(|name| flip(&found, name));
+    assert!(errors[0] > errors[2] && errors[2] > errors[4], "{errors:?}");
+    // a way that the formula does not have says why
+    let integral = choice(&found, "steps_by = integral");
+    assert!(
+        integral["error"].is_object() || integral["note"].as_str().unwrap().contains("integral")
+    );
+}
+
+#[test]
+fn what_is_nowhere_a_number_is_measured_all_the_same() {
+    let found = found("log(-1 - x^2)", &[]);
+    assert!(
+        flip(&found, "default") < 0.05,
+        "the pattern of what is undefined"
+    );
+    assert_eq!(found["advice"]["unseen"].is_number(), true);
+}
+
+#[test]
+fn a_budget_that_is_too_small_keeps_what_there_is() {
+    let found = found_within("sin(x y)", ["640x480", "0.01"], &[]);
+    let known = found["truth"]["pixels"].as_u64().unwrap();
+    assert!((1024..640 * 480).contains(&known), "{known}");
+    let notes: Vec<&str> = found["choices"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|c| c["note"].as_str())
+        .collect();
+    assert!(
+        notes.iter().any(|note| note.contains("budget")),
+        "{notes:?}"
+    );
+}
+
+#[test]
+fn the_report_is_one_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = [
+        "measure",
+        "x^2 - y < 1 & \"",
+        "--size",
+        "40x30",
+        "--budget",
+        "1",
+        "-o",
+        "report.html",
+    ];
+    let (code, _, errors) = pullback(folder.path(), &arguments);
+    assert_eq!(code, 1, "a formula with errors: {errors}");
+    assert!(!folder.path().join("report.html").exists());
+    let arguments = [
+        "measure",
+        "sin(x) + cos(y)",
+        "--size",
+        "40x30",
+        "--budget",
+        "60",
+        "-q",
+        "-o",
+        "report.html",
+        "--adapter",
+        "software",
+    ];
+    let (code, table, errors) = pullback(folder.path(), &arguments);
+    assert_eq!(code, 0, "{errors}");
+    assert!(
+        table.contains("default") && table.contains("half the time"),
+        "{table}"
+    );
+    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert!(page.contains("<svg") && page.matches("data:image/png;base64,").count() == 3);
+    assert!(
+        !page.contains("src=\"http") && !page.contains("<script"),
+        "nothing from elsewhere"
+    );
+    assert!(page.contains("<title>pullback measure: "));
+}
+
+#[test]
+fn wrong_tries_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (words, expected) in [
+        ("samples=0", "samples=0"),
+        ("precision=exact", "there are fast"),
+        ("stepz=3", "stepz"),
+        ("k=2", "a parameter changes what is shown"),
+    ] {
+        let formula = "param k = 1 in 0..3; f(x, y) = k x y; show levels(f)";
+        let (code, _, errors) = pullback(
+            folder.path(),
+            &["measure", formula, "--try", words, "--budget", "1"],
+        );
+        assert_eq!(code, 2, "{words}: {errors}");
+        assert!(errors.contains(expected), "{words}: {errors}");
+    }
+}
