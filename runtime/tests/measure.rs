@@ -162,6 +162,29 @@ fn the_report_is_one_file() {
 }
 
 #[test]
+fn several_pictures_are_a_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let two = [
+        "measure", "x + y", "sin(x y)", "--size", "32x24", "--budget", "20", "-q",
+    ];
+    let arguments = [&two[..], &["--adapter", "software"]].concat();
+    let (code, table, errors) = pullback(folder.path(), &arguments);
+    assert_eq!(code, 0, "{errors}");
+    let lines: Vec<&str> = table
+        .lines()
+        .filter(|line| line.starts_with("| "))
+        .collect();
+    assert_eq!(lines.len(), 4, "{table}");
+    let cells = |line: &str| line.split('|').count();
+    assert!(
+        lines.iter().all(|line| cells(line) == cells(lines[0])),
+        "{table}"
+    );
+    let json = [&arguments[..], &["--format", "json"]].concat();
+    assert_eq!(pullback(folder.path(), &json).0, 2);
+}
+
+#[test]
 fn wrong_tries_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     for (words, expected) in [

@@ -3,8 +3,10 @@
 mod chart;
 mod html;
 mod json;
+mod summary;
 mod table;
 
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -13,7 +15,7 @@ use pullback_compiler::SettingValue;
 use pullback_compiler::lower::Tier;
 use pullback_runtime::measure::{self, Choice, Job, Report};
 use pullback_runtime::render::MAX_SAMPLES;
-use pullback_runtime::{Size, atomic_file, fill_in_scale};
+use pullback_runtime::{Gpu, Size, atomic_file, fill_in_scale};
 
 use super::failure::Failure;
 use super::place::Computer;
@@ -27,12 +29,14 @@ use super::{
 /// Arguments of `pullback measure`.
 #[derive(Debug, Args)]
 pub(super) struct MeasureArguments {
-    #[command(flatten)]
-    input: Input,
+    /// A file (if it exists or ends in .pull), a formula, or - for the standard input; of several, a table with
+    /// one line each. Before a formula that begins with a minus, write --
+    #[arg(value_name = "FILE|FORMULA", required = true)]
+    inputs: Vec<OsString>,
     /// A report with charts and pictures in one file that needs no other, .html
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Seconds that all may take, as far as single pictures allow
+    /// Seconds that a picture's choices may take in all, as far as single pictures allow
     #[arg(long, default_value = "60", value_name = "SECONDS", value_parser = positive)]
     budget: f64,
     /// Another choice to be measured, such as "steps=64 samples=3 precision=fast"; may be given often
@@ -83,50 +87,36 @@ struct Findings<'a> {
     report: &'a Report,
 }
 
-/// Measures the choices of one picture.
+/// Measures the choices of one picture, or of several.
 pub(super) fn run(arguments: &MeasureArguments, console: &Console) -> Result<(), Failure> {
-    let subject = Subject::open(
-        &Wanted {
-            input: &arguments.input,
-            which: arguments.which,
-            rules: arguments.rules,
-            settings: &arguments.settings,
-            center: arguments.center,
-            height: arguments.height,
-            size: arguments.size,
-            samples: arguments.samples,
-        },
-        console,
-    )?;
     let gpu = super::open(&arguments.device.adapter, console)?;
-    let computer = Computer::Adapter(gpu.clone());
-    let tier = subject.tier(arguments.numbers, &computer, console)?;
-    let default = Choice {
-        changes: Vec::new(),
-        precision: tier.precision,
-        settings: subject.settings.clone(),
-        samples: arguments.samples,
-    };
-    let mut choices = measure::choices(subject.picture(), &default, &measure::tiers(&gpu));
-    for text in &arguments.tries {
-        choices.push(tried(text, &default, arguments, &subject)?);
+    if let [input] = arguments.inputs.as_slice() {
+        return one(arguments, input, &gpu, console);
     }
-    let scene = |settings: &[SettingValue], tier: Tier| made(&subject, arguments, settings, tier);
-    // what is wrong with the program is told in its place before anything is measured
-    subject.scene(tier, console)?;
-    let job = Job {
-        gpu: &gpu,
-        frame: subject.frame(&[]),
-        choices: &choices,
-        scene: &scene,
-        budget: Duration::try_from_secs_f64(arguments.budget).unwrap_or(Duration::MAX / 4),
-    };
-    let mut progress = Progress::new(console);
-    let report = measure::run(&job, &mut |_, done, total| progress.update(done, total));
-    progress.finish();
-    let report = report.map_err(Failure::writing("measurement"))?;
+    if arguments.output.is_some() || matches!(arguments.format, Format::Json) {
+        return Err(Failure::usage_hint(
+            "a report and JSON are of one picture",
+            "leave --output and --format out, or measure one file at a time",
+        ));
+    }
+    summary::head(&gpu.adapter().to_string(), arguments.size).map_err(Failure::stdout)?;
+    for input in &arguments.inputs {
+        let (name, report) = measured(arguments, input, &gpu, console)?;
+        summary::row(&name, &report).map_err(Failure::stdout)?;
+    }
+    Ok(())
+}
+
+/// Measures one picture, and tells all that was found.
+fn one(
+    arguments: &MeasureArguments,
+    input: &OsStr,
+    gpu: &Gpu,
+    console: &Console,
+) -> Result<(), Failure> {
+    let (title, report) = measured(arguments, input, gpu, console)?;
     let findings = Findings {
-        title: &subject.source.name,
+        title: &title,
         adapter: &gpu.adapter().to_string(),
         size: arguments.size,
         report: &report,
@@ -145,6 +135,57 @@ pub(super) fn run(arguments: &MeasureArguments, console: &Console) -> Result<(),
         console.note(&format!("{}: the report", name(path)));
     }
     Ok(())
+}
+
+/// The name of a program, and what its picture's choices cost and give.
+fn measured(
+    arguments: &MeasureArguments,
+    input: &OsStr,
+    gpu: &Gpu,
+    console: &Console,
+) -> Result<(String, Report), Failure> {
+    let subject = Subject::open(
+        &Wanted {
+            input: &Input {
+                input: input.to_owned(),
+            },
+            which: arguments.which,
+            rules: arguments.rules,
+            settings: &arguments.settings,
+            center: arguments.center,
+            height: arguments.height,
+            size: arguments.size,
+            samples: arguments.samples,
+        },
+        console,
+    )?;
+    let computer = Computer::Adapter(gpu.clone());
+    let tier = subject.tier(arguments.numbers, &computer, console)?;
+    let default = Choice {
+        changes: Vec::new(),
+        precision: tier.precision,
+        settings: subject.settings.clone(),
+        samples: arguments.samples,
+    };
+    let mut choices = measure::choices(subject.picture(), &default, &measure::tiers(gpu));
+    for text in &arguments.tries {
+        choices.push(tried(text, &default, arguments, &subject)?);
+    }
+    let scene = |settings: &[SettingValue], tier: Tier| made(&subject, arguments, settings, tier);
+    // what is wrong with the program is told in its place before anything is measured
+    subject.scene(tier, console)?;
+    let job = Job {
+        gpu,
+        frame: subject.frame(&[]),
+        choices: &choices,
+        scene: &scene,
+        budget: Duration::try_from_secs_f64(arguments.budget).unwrap_or(Duration::MAX / 4),
+    };
+    let mut progress = Progress::new(console);
+    let report = measure::run(&job, &mut |_, done, total| progress.update(done, total));
+    progress.finish();
+    let report = report.map_err(Failure::writing("measurement"))?;
+    Ok((subject.source.name.clone(), report))
 }
 
 /// The scene's shader for other settings; what is wrong in one line.
