@@ -72,7 +72,10 @@ fn run(options: &Options) -> Result<(), String> {
         .filter(|c| is_wanted(c.formula) || is_wanted(c.name))
     {
         let found = measure(class, &rays, &machine)?;
-        eprint!("{}", tables::unexplained(&found, options.roundings, options.worst));
+        eprint!(
+            "{}",
+            tables::unexplained(&found, options.roundings, options.worst)
+        );
         all.push(found);
     }
     let text = format!(
