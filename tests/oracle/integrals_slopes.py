@@ -67,6 +67,7 @@ CASES = [
     ("log(1 + u^2)", ROUND),
     ("1/((u + 1)*(u + 2))", []),
     ("1/((1 + u^2)*(3 + u^2))", ROUND),
+    ("max(0, u)", []),
     ("abs(u)*exp(-abs(u))", []),
 ]
 
@@ -75,7 +76,7 @@ def rows(case):
     text, more = case
     code = text.replace("^", "**").replace("1/3", "mpf(1)/3")
     names = {n: getattr(mpmath, n) for n in "exp sin cos log cosh tanh atan asinh erf erfc sqrt mpf".split()}
-    names |= {"abs": abs}
+    names |= {"abs": abs, "max": max}
     f = eval("lambda u, t: " + code, names)
     out = ["= " + text]
     for x, y in POINTS + more:

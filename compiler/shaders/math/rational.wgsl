@@ -68,6 +68,12 @@ fn real_atan_quotient(z: f32, n: i32) -> f32 {
     return value;
 }
 
+/// -b/a, 0 where a is next to nothing or the quotient is no number of moderate size.
+fn real_foot(a: f32, b: f32) -> f32 {
+    let place = -b / a;
+    return select(0.0, place, magnitude(a) > 1e-30 && magnitude(place) < 1e30);
+}
+
 /// ∫ du/(u² + p) from x to ∞: atan2(√p, x)/√p, continued through p = 0; ∞ where the pole is at the end, NaN beyond.
 fn real_atan2_quotient(p: f32, x: f32) -> f32 {
     if is_nan(p) || is_nan(x) {

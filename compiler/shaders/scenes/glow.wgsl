@@ -75,6 +75,7 @@ struct Sight {
     forward: vec3f,
     slope: f32,
     parallel: bool,
+    before: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -89,7 +90,7 @@ fn field_colour(p: vec3f) -> vec4f { return vec4f(); }
 fn is_nan(x: f32) -> bool { return false; }
 fn is_finite(x: f32) -> bool { return false; }
 fn length3_safe(v: vec3f) -> f32 { return 0.0; }
-fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
+fn sight_near(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn mean_glow(a: f32, b: f32, epsilon: f32, square: bool) -> f32 { return 0.0; }
 fn filmic(radiance: vec3f) -> vec3f { return vec3f(); }
@@ -179,7 +180,7 @@ fn glow_along(ray: Ray, span: vec2f, pixel: vec2f) -> vec3f {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
+    let sight = sight_near(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     var light = vec3f();
     if span.y > max(span.x, 0.0) {

@@ -83,6 +83,7 @@ struct Sight {
     forward: vec3f,
     slope: f32,
     parallel: bool,
+    before: f32,
 }
 
 struct Family {

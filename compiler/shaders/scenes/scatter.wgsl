@@ -76,6 +76,7 @@ struct Sight {
     forward: vec3f,
     slope: f32,
     parallel: bool,
+    before: f32,
 }
 
 struct Layer {
@@ -116,7 +117,7 @@ fn field_column(o: vec3f, d: vec3f, a: f32, b: f32) -> vec3f { return vec3f(); }
 fn is_nan(x: f32) -> bool { return false; }
 fn column_within(column: vec3f, most: f32) -> f32 { return 0.0; }
 fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
-fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
+fn sight_near(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn sky_at(direction: vec3f, background: vec3f) -> vec3f { return vec3f(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f { return vec4f(); }
@@ -291,7 +292,7 @@ fn cloud_over(seen: Scattered, behind: vec4f) -> vec4f {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
+    let sight = sight_near(pixel, settings.camera, settings.center, settings.box);
     let behind = backdrop_at(sight.ray.direction);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     if span.y <= max(span.x, 0.0) {

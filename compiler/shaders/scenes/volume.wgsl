@@ -87,6 +87,7 @@ struct Sight {
     forward: vec3f,
     slope: f32,
     parallel: bool,
+    before: f32,
 }
 
 struct Medium {
@@ -132,7 +133,7 @@ fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
 fn field_column(o: vec3f, d: vec3f, a: f32, b: f32) -> vec3f { return vec3f(); }
 
 fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
-fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
+fn sight_near(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn matter_of(jet: vec4f, medium: Medium) -> Matter { return Matter(); }
 fn seen_nothing() -> Seen { return Seen(); }
@@ -232,7 +233,7 @@ fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
+    let sight = sight_near(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     if span.y <= max(span.x, 0.0) {
         return backdrop();

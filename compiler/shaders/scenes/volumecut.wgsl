@@ -100,6 +100,7 @@ struct Sight {
     forward: vec3f,
     slope: f32,
     parallel: bool,
+    before: f32,
 }
 
 struct Medium {
@@ -158,7 +159,7 @@ struct Layer {
 fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
 
 fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { return vec3f(); }
-fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
+fn sight_near(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 { return 0.0; }
 fn matter_of(jet: vec4f, medium: Medium) -> Matter { return Matter(); }
@@ -252,7 +253,7 @@ fn met_in_part(sight: Sight, part: Kept, n: vec3f, pixel: vec2f) -> Met {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    let sight = sight_at(pixel, settings.camera, settings.center, settings.box);
+    let sight = sight_near(pixel, settings.camera, settings.center, settings.box);
     let span = box_span(sight.ray.origin, sight.ray.direction, settings.center, settings.box);
     if span.y <= max(span.x, 0.0) {
         return backdrop();

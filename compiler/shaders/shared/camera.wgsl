@@ -25,6 +25,7 @@ struct Sight {
     forward: vec3f,  // the way the camera looks, of length 1
     slope: f32,      // a pixel in world units: at distance 1 along `forward` in perspective, anywhere else
     parallel: bool,  // whether all rays are parallel
+    before: f32,     // how far from the camera the ray begins
 }
 
 // Unit vector of the direction with the given yaw (from +x towards +y) and pitch (up from the ground), radians.
@@ -102,9 +103,9 @@ fn sight_at(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Si
     let offset = (pixel - 0.5 * view.size) * slope;
     let across = offset.x * axes.right - offset.y * axes.up;
     if camera.projection == 1u {
-        return Sight(Ray(axes.eye + across, -axes.back), -axes.back, slope, true);
+        return Sight(Ray(axes.eye + across, -axes.back), -axes.back, slope, true, 0.0);
     }
-    return Sight(Ray(axes.eye, normalize(across - axes.back)), -axes.back, slope, false);
+    return Sight(Ray(axes.eye, normalize(across - axes.back)), -axes.back, slope, false, 0.0);
 }
 
 // A ray as it is seen from where it passes the centre of a scene: however far away the camera is, its origin is only as far
@@ -133,9 +134,23 @@ fn near_ray(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Ne
     return NearRay(middle + away * across, normalize(along), -away * length(along));
 }
 
-// A pixel in world units at distance t along a sight, on a plane at right angles to the camera's view.
+// A sight whose ray begins where it comes near the box, if the camera is not there: what lies on it is then rounded to the
+// size of the box and not to the camera's distance.
+fn sight_near(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight {
+    let sight = sight_at(pixel, camera, center, half_size);
+    let near = near_ray(pixel, camera, center, half_size);
+    // the box is within this from the place of the ray that is nearest to its centre
+    let back = dot(near.origin - center, near.direction) + 1.01 * length(half_size);
+    let before = -near.start - back;
+    if before <= 0.0 {
+        return sight;
+    }
+    return Sight(Ray(near.origin - back * near.direction, near.direction), sight.forward, sight.slope, sight.parallel, before);
+}
+
+// A pixel in world units at t along a sight, on a plane at right angles to the camera's view.
 fn sight_footprint(sight: Sight, t: f32) -> f32 {
-    return select(t * dot(sight.ray.direction, sight.forward) * sight.slope, sight.slope, sight.parallel);
+    return select((sight.before + t) * dot(sight.ray.direction, sight.forward) * sight.slope, sight.slope, sight.parallel);
 }
 
 // Towards a light at `yaw` about z and `pitch` above the ground, degrees. `origin` says where yaw is counted from: 0 from

@@ -52,6 +52,23 @@ fn real_atan_quotient(z: real, n: i32) -> real {
     return value;
 }
 
+/// -b/a, 0 where a is next to nothing or the quotient is no number of moderate size.
+fn real_foot(a: real, b: real) -> real {
+    if is_below(real_abs(a), 1e-30) {
+        return num(0.0);
+    }
+    let place = real_neg(real_div(b, a));
+    return choose(is_below(real_abs(place), 1e30), place, num(0.0));
+}
+
+/// a b + c, the product not rounded.
+fn real_mul_add(a: real, b: real, c: real) -> real {
+    if !is_below(real_abs(a), 1e18) || !is_below(real_abs(b), 1e18) || !is_below(real_abs(c), 1e37) {
+        return real_add(real_mul(a, b), c);
+    }
+    return long_add_real(long_product(a, b), c).hi;
+}
+
 /// ∫ du/(u² + p) from x to ∞: atan2(√p, x)/√p, continued through p = 0; ∞ where the pole is at the end, NaN beyond.
 fn real_atan2_quotient(p: real, x: real) -> real {
     if is_nan(p) || is_nan(x) {

@@ -41,6 +41,23 @@ pub fn mul(g: &mut Graph, a: Id, b: Id) -> Id {
     g.mul(a, b)
 }
 
+/// `a b + c`, rounded once where the adapter's `fma` is.
+pub fn mul_add(g: &mut Graph, a: Id, b: Id, c: Id) -> Id {
+    let is_one = |g: &Graph, id: Id| g.as_real(id) == Some(1.0);
+    let is_known = |g: &Graph, id: Id| g.as_real(id).is_some();
+    let is_short = is_zero(g, a)
+        || is_zero(g, b)
+        || is_zero(g, c)
+        || is_one(g, a)
+        || is_one(g, b)
+        || is_known(g, a) && is_known(g, b);
+    if is_short {
+        let product = mul(g, a, b);
+        return add(g, c, product);
+    }
+    g.apply(Prim::MulAdd, &[a, b, c])
+}
+
 /// v · (w x) with the constants v and w multiplied before.
 fn folded(g: &mut Graph, v: f64, b: Id) -> Option<Id> {
     let node = g.node(b);

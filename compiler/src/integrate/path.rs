@@ -3,8 +3,8 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
-use super::arithmetic::{add, mul, scale, sub};
-use crate::ir::{Binder, Graph, Id, Op};
+use super::arithmetic::{if_less, is_zero, mul_add, scale, sub};
+use crate::ir::{Binder, Graph, Id, Op, Prim};
 
 /// A coordinate that changes along the line: origin + t slope.
 #[derive(Clone, Copy, Debug)]
@@ -61,15 +61,18 @@ impl Path {
     pub(super) fn of_lines(g: &mut Graph, lines: &[(Id, Id, Id)], ends: [Id; 2]) -> Self {
         // from half ends, so that neither overflows
         let halves = ends.map(|end| scale(g, 0.5, end));
-        let (middle, half) = (add(g, halves[0], halves[1]), sub(g, halves[1], halves[0]));
-        let coordinate = |&(leaf, origin, slope): &(Id, Id, Id)| Coordinate {
+        let (middle, half) = (
+            super::arithmetic::add(g, halves[0], halves[1]),
+            sub(g, halves[1], halves[0]),
+        );
+        let mut coordinate = |&(leaf, origin, slope): &(Id, Id, Id)| Coordinate {
             leaf,
             origin,
-            mid: line(g, origin, middle, slope),
+            mid: mid(g, (origin, slope), ends, middle, half),
             slope,
         };
         Self {
-            coordinates: lines.iter().map(coordinate).collect(),
+            coordinates: lines.iter().map(&mut coordinate).collect(),
             ends,
             middle,
             half,
@@ -93,6 +96,16 @@ impl Path {
             c.mid = c.origin;
         }
         out.middle = g.real(0.0);
+        out
+    }
+
+    /// The same line, seen from another t.
+    pub fn from_place(&self, g: &mut Graph, t: Id) -> Self {
+        let mut out = self.clone();
+        for c in &mut out.coordinates {
+            c.mid = line(g, c.origin, t, c.slope);
+        }
+        out.middle = t;
         out
     }
 
@@ -120,10 +133,26 @@ impl Path {
     }
 }
 
-/// base + t slope
+/// base + t slope, rounded once: the ray may begin far away from where it is looked at.
 fn line(g: &mut Graph, base: Id, t: Id, slope: Id) -> Id {
-    let step = mul(g, t, slope);
-    add(g, base, step)
+    mul_add(g, t, slope, base)
+}
+
+/// A coordinate in the middle of the interval. Where that is further from t = 0 than the ends from each other, the mean of
+/// both ends: each is rounded by itself, and the t of the middle would be rounded to its distance from 0.
+fn mid(g: &mut Graph, (origin, slope): (Id, Id), ends: [Id; 2], middle: Id, half: Id) -> Id {
+    let there = line(g, origin, middle, slope);
+    if is_zero(g, slope) || is_zero(g, origin) || is_zero(g, half) {
+        return there;
+    }
+    let [low, high] = ends.map(|t| line(g, origin, t, slope));
+    let low = scale(g, 0.5, low);
+    let between = {
+        let half = g.real(0.5);
+        mul_add(g, half, high, low)
+    };
+    let [away, reach] = [middle, half].map(|t| g.apply(Prim::Abs, &[t]));
+    if_less(g, reach, away, between, there)
 }
 
 /// Expressions that are to be copied with their coordinates replaced, once for each node of a rule.

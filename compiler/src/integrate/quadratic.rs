@@ -1,7 +1,7 @@
 //! Polynomials of degree 1 and 2 by their values in the middle of the path.
 
 use super::Integrator;
-use super::arithmetic::{add, div, mul, scale, square, sub, total};
+use super::arithmetic::{add, call, div, mul, scale, square, sub, total};
 use crate::ir::{Id, Op, Prim};
 
 /// mid + s slope, s from the middle.
@@ -69,9 +69,14 @@ impl Integrator<'_> {
         let (b, a) = (scale(self.g, 0.5, slope), scale(self.g, 0.5, curvature));
         let whole = self.path.clone();
         self.path = whole.from_origin(self.g);
-        let found = self.squares(id).and_then(|s| self.discriminant(&s));
         let rate = self.slope(id);
         let at_origin = self.at_middle(rate);
+        let mut found = self.squares(id);
+        if let Some(place) = found.as_ref().and_then(|s| self.least_place(s)) {
+            self.path = whole.from_place(self.g, place);
+            found = self.squares(id);
+        }
+        let found = found.and_then(|s| self.discriminant(&s));
         self.path = whole;
         let foot = scale(self.g, -0.5, at_origin);
         let foot = self.g.div(foot, a);
@@ -140,6 +145,27 @@ impl Integrator<'_> {
         };
         let mut weights = found.squares.iter().map(|s| s.0);
         weights.all(|w| self.g.as_real(w).is_some_and(|w| w >= 0.0))
+    }
+
+    /// t about where the sum of the squares is least, signs of their weights left out. What is formed from the values there
+    /// is rounded least, as they are the smallest; the discriminant is the same number wherever it is formed. `None` for
+    /// one square alone, of which nothing is crossed.
+    fn least_place(&mut self, found: &Squares) -> Option<Id> {
+        if found.squares.len() < 2 || found.squares.len() > MAX_SQUARES {
+            return None;
+        }
+        let g = &mut *self.g;
+        let (mut a, mut b) = (g.real(0.0), g.real(0.0));
+        for (w, x) in &found.squares {
+            let weight = match g.as_real(*w) {
+                Some(w) => g.real(w.abs()),
+                None => call(g, Prim::Abs, *w),
+            };
+            let (rate, product) = (square(g, x.slope), mul(g, x.mid, x.slope));
+            let (rate, product) = (mul(g, weight, rate), mul(g, weight, product));
+            (a, b) = (add(g, a, rate), add(g, b, product));
+        }
+        Some(g.apply(Prim::Foot, &[a, b]))
     }
 
     /// a c - b² from the squares.

@@ -57,9 +57,10 @@ impl<'g> Integrator<'g> {
             let part = mul(self.g, part, level);
             mean = add(self.g, mean, part);
         }
-        let at_start = Body::new(self.g, &[ridge.function], std::iter::once(ridge.leaf));
-        let level = at_start.at(self.g, &[(ridge.leaf, ends[0])])[0];
-        // where u is the same number at both ends
+        let of_form = Body::new(self.g, &[ridge.function], std::iter::once(ridge.leaf));
+        let middle = self.g.add(halves[0], halves[1]);
+        let level = of_form.at(self.g, &[(ridge.leaf, middle)])[0];
+        // where u is the same number at both ends: both change it by half
         let changes = self.g.apply(Prim::Less, &[low, high]);
         let mean = self.g.apply(Prim::Select, &[changes, mean, level]);
         let is_constant = ridge.pieces.iter().all(|p| p.1 == 0);

@@ -138,6 +138,10 @@ pub enum Prim {
     ExpOfProduct,
     /// x² + p, rounded once.
     SquarePlus,
+    /// a b + c, rounded once where the adapter's `fma` is.
+    MulAdd,
+    /// -b/a, about where a s² + 2 b s + c is least; locally constant.
+    Foot,
     Log1pExp,
     Gamma,
     Lgamma,

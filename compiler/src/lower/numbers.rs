@@ -189,6 +189,7 @@ fn builtin_name(fun: MathFunction) -> Option<&'static str> {
         MathFunction::Sqrt => "real_sqrt",
         MathFunction::Min => "real_min",
         MathFunction::Max => "real_max",
+        MathFunction::Fma => "real_mul_add",
         _ => return None,
     })
 }

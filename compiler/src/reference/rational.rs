@@ -26,6 +26,13 @@ fn is_moderate(z: f64) -> bool {
     (-0.9..3.0).contains(&z)
 }
 
+/// -b/a, 0 where a is next to nothing or the quotient is no number of moderate size.
+pub fn foot(a: f64, b: f64) -> f64 {
+    let place = -b / a;
+    let is_moderate = a.abs() > 1e-30 && place.abs() < 1e30;
+    if is_moderate { place } else { 0.0 }
+}
+
 /// ∫₀¹ s^{2n} / (1 + z s²) ds: for n = 0 atan(√z)/√z, continued through 0 to artanh(√-z)/√-z. Infinite at -1, NaN below.
 pub fn atan_quotient(n: u8, z: f64) -> f64 {
     if z.is_nan() || z < -1.0 {

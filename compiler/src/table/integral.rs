@@ -3,6 +3,8 @@
 //!
 //! Families whose next member is the derivative of one: rules that cancel nowhere, whatever the order.
 
+use naga::MathFunction;
+
 use super::cardinal::{exprel_partial, horner};
 use super::derivative::{call, plus, reciprocal, scaled};
 use super::{Derivative, Gpu, Row, Typing, Weight};
@@ -16,7 +18,8 @@ pub const MAX_MASS_MOMENT: u8 = 3;
 
 pub fn rows() -> Vec<Row> {
     let rows = quotients().into_iter().chain(spherical());
-    rows.chain(errors()).chain(masses()).collect()
+    let rows = rows.chain(errors()).chain(masses());
+    rows.chain(places()).collect()
 }
 
 fn weight(real: u16) -> Weight {
@@ -290,6 +293,45 @@ fn masses() -> [Row; 4] {
             gpu: Gpu::Library("real_square_plus", None),
             gpu_complex: "",
             cost: weight(10),
+        },
+    ]
+}
+
+/// Places on a line.
+fn places() -> [Row; 2] {
+    [
+        Row {
+            prim: Prim::MulAdd,
+            mnemonic: "fma",
+            names: &[],
+            usage: "",
+            doc: "a b + c, rounded once where the adapter's fma is",
+            typing: Typing::Real(3),
+            real: Some(|a| a[0].mul_add(a[1], a[2])),
+            complex: None,
+            derivative: Derivative::Partial(|g, args, _, k| match k {
+                0 => args[1],
+                1 => args[0],
+                _ => g.real(1.0),
+            }),
+            gpu: Gpu::Builtin(MathFunction::Fma),
+            gpu_complex: "",
+            cost: weight(2),
+        },
+        Row {
+            prim: Prim::Foot,
+            mnemonic: "foot",
+            names: &[],
+            usage: "",
+            doc: "-b/a, about where a s² + 2 b s + c is least, 0 where that is no number of moderate size; for what does \
+                  not depend on the place but is rounded least there: locally constant",
+            typing: Typing::Real(2),
+            real: Some(|a| rational::foot(a[0], a[1])),
+            complex: None,
+            derivative: Derivative::Zero,
+            gpu: Gpu::Library("real_foot", None),
+            gpu_complex: "",
+            cost: weight(4),
         },
     ]
 }

@@ -33,6 +33,9 @@ struct Options {
     /// How many of the worst rays of a class are printed
     #[arg(long, default_value_t = 3)]
     worst: usize,
+    /// How many roundings of the numbers of a ray are allowed to those that are not printed
+    #[arg(long, default_value_t = 8.0)]
+    roundings: f64,
     /// Print that many rays of each class for tests/oracle/integrals_stability.py, and nothing else
     #[arg(long)]
     sample: Option<usize>,
@@ -69,7 +72,10 @@ fn run(options: &Options) -> Result<(), String> {
         .filter(|c| is_wanted(c.formula) || is_wanted(c.name))
     {
         let found = measure(class, &rays, &machine)?;
-        eprint!("{}", tables::unexplained(&found, 8.0, options.worst));
+        eprint!(
+            "{}",
+            tables::unexplained(&found, options.roundings, options.worst)
+        );
         all.push(found);
     }
     let text = format!(

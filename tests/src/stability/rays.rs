@@ -225,6 +225,6 @@ impl Ray {
     /// The place at t.
     #[must_use]
     pub fn at(&self, t: f64) -> [f64; 3] {
-        std::array::from_fn(|c| self.numbers[c] + t * self.numbers[3 + c])
+        std::array::from_fn(|c| t.mul_add(self.numbers[3 + c], self.numbers[c]))
     }
 }

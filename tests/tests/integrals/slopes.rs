@@ -12,6 +12,8 @@ use pullback_tests::accuracy::evaluators::{Machine, Point};
 /// What an error may be beside the greatest of the value and both derivatives, and 1: in f64, and in binary32. The
 /// Gaussian counts as constant where its exponent changes by less than 1e-7, which its derivative has to first order.
 const BOUNDS: [f64; 2] = [1e-8, 4e-6];
+/// Roundings of numbers of both machines.
+const ROUNDINGS: [f64; 2] = [1.1e-16, 6e-8];
 
 #[test]
 fn slopes_by_both_ends() {
@@ -44,6 +46,14 @@ fn slopes_by_both_ends() {
             Machine::Processor(Arithmetic::Ieee32, Precision::Accurate),
         ];
         for (k, machine) in machines.iter().enumerate() {
+            // parts of a range that is cut are differences of ends over their distance
+            let distance = (numbers[1] - numbers[0]).abs();
+            let is_cut = integrand.contains("max") && distance > 0.0;
+            let cancelled = if is_cut {
+                4.0 * ROUNDINGS[k] / distance
+            } else {
+                0.0
+            };
             let found = &machine
                 .run(formula.as_ref().unwrap(), What::Gradient, &at)
                 .unwrap()[0];
@@ -52,7 +62,7 @@ fn slopes_by_both_ends() {
                 let error = (value - exact).abs() / size;
                 worst[k] = worst[k].max(error);
                 count += 1;
-                if error.is_nan() || error > BOUNDS[k] {
+                if error.is_nan() || error > BOUNDS[k] + cancelled {
                     let _ = writeln!(
                         wrong,
                         "{integrand}: {error:.1e}, {machine}: {found:?}, {line}"

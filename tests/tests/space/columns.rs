@@ -4,7 +4,7 @@
 use pullback_compiler::compile;
 use pullback_compiler::lower::Precision;
 
-use crate::camera::{Ray, Vec3, dot};
+use crate::camera::{Camera, Ray, Vec3, dot};
 use crate::colour::Rgb;
 use crate::drawing::{device, draw_linear};
 use crate::scatter::{self, HAZE, integral};
@@ -15,8 +15,15 @@ const BOUND: f64 = 1e-5;
 /// Rays that pass less of the box are not judged: their ends are rounded.
 const SHORTEST: f64 = 0.4;
 
-/// World units: four roundings in single precision at the camera's distance of 12.
-const MOVED: f64 = 4.0 * 4.8e-7;
+/// World units: four roundings in single precision at the size of the box, however far away the camera is.
+const MOVED: f64 = 4.0 * 1.2e-7;
+
+/// The same box from 100 units away.
+const FAR: Camera = Camera {
+    distance: 100.0,
+    fov: 3.2,
+    ..CAMERA
+};
 
 /// A function, what it is in Rust, and the settings of its density.
 struct Even {
@@ -109,7 +116,7 @@ const EVEN: [Even; 12] = [
 const COLOUR: Rgb = [0.9, 0.5, 0.2];
 
 impl Even {
-    fn source(&self, more: &str) -> String {
+    fn source(&self, camera: &Camera, more: &str) -> String {
         let [r, g, b] = COLOUR;
         format!(
             "f(x, y, z) = {}\nshow volume(f) {{ color_scale = 0.8, power = {}, density = {}, signs = {}, \
@@ -119,7 +126,7 @@ impl Even {
             self.power,
             self.density,
             self.signs,
-            CAMERA.settings()
+            camera.settings()
         )
     }
 
@@ -160,27 +167,28 @@ fn across(ray: &Ray, axis: Vec3) -> Vec3 {
 }
 
 /// The rays of every thirteenth pixel that pass enough of the box, with the places of the pixels.
-fn rays() -> Vec<(usize, Ray, [f64; 2])> {
-    let [width, height] = CAMERA.size;
+fn rays(camera: &Camera) -> Vec<(usize, Ray, [f64; 2])> {
+    let [width, height] = camera.size;
     (0..width * height)
         .step_by(13)
         .filter_map(|k| {
             let (x, y) = (f64::from(k % width) + 0.5, f64::from(k / width) + 0.5);
-            let ray = CAMERA.ray(x, y);
+            let ray = camera.ray(x, y);
             let span = ray.cube(2.0)?;
             (span[1] - span[0] > SHORTEST).then_some((k as usize, ray, span))
         })
         .collect()
 }
 
-/// 1 - exp(-∫σ) times the colour, of the whole ray at once.
+/// 1 - exp(-∫σ) times the colour, of the whole ray at once, from near and far.
 #[test]
 fn even_emission_is_the_closed_form_of_the_whole_ray() {
     let Some(gpu) = device() else { return };
-    for case in &EVEN {
-        let pixels = draw_linear(&gpu, &case.source(""), CAMERA.size, 1);
+    let views = [CAMERA, FAR];
+    for (case, camera) in EVEN.iter().flat_map(|case| views.map(|view| (case, view))) {
+        let pixels = draw_linear(&gpu, &case.source(&camera, ""), camera.size, 1);
         let mut worst = 0.0f64;
-        for (k, ray, span) in rays() {
+        for (k, ray, span) in rays(&camera) {
             let depth = case.depth(&ray, span);
             let opacity = -(-depth).exp_m1();
             let allowed = (-depth).exp() * case.moved(&ray, span, depth) / opacity;
@@ -189,8 +197,16 @@ fn even_emission_is_the_closed_form_of_the_whole_ray() {
                 worst = worst.max(error - allowed);
             }
         }
-        println!("{}, {}: {worst:.1e}", case.formula, case.signs);
-        assert!(worst < BOUND, "{}: {worst:e}", case.formula);
+        println!(
+            "{}, {}, from {}: {worst:.1e}",
+            case.formula, case.signs, camera.distance
+        );
+        assert!(
+            worst < BOUND,
+            "{} from {}: {worst:e}",
+            case.formula,
+            camera.distance
+        );
     }
 }
 
@@ -256,23 +272,31 @@ fn layers_of_fog_are_exact_in_any_number_of_steps() {
             ..HAZE
         };
         let [width, height] = scatter::ASIDE.size;
-        for steps in [4, 60] {
+        let far = Camera {
+            distance: 100.0,
+            fov: scatter::ASIDE.fov * scatter::ASIDE.distance / 100.0,
+            ..scatter::ASIDE
+        };
+        for (steps, camera) in [(4, scatter::ASIDE), (60, scatter::ASIDE), (4, far)] {
             let settings = format!("steps_by = integral, steps = {steps}, ");
-            let found = case.drawn(&gpu, &scatter::ASIDE, &settings);
+            let found = case.drawn(&gpu, &camera, &settings);
             let brightest = found.iter().flatten().fold(0.0, |a: f64, b| a.max(*b));
             let mut worst = 0.0f64;
             for k in (0..width * height).step_by(3) {
                 let (x, y) = (f64::from(k % width) + 0.5, f64::from(k / width) + 0.5);
-                let ray = scatter::ASIDE.ray(x, y);
+                let ray = camera.ray(x, y);
                 if ray.cube(2.0).is_none_or(|[a, b]| b - a < SHORTEST) {
                     continue;
                 }
                 for (channel, found) in found[k as usize].iter().enumerate() {
-                    let wanted = case.radiance(&scatter::ASIDE, &ray, channel);
+                    let wanted = case.radiance(&camera, &ray, channel);
                     worst = worst.max((found - wanted).abs() / brightest);
                 }
             }
-            println!("{formula}, {steps} steps: {worst:.1e}");
+            println!(
+                "{formula}, {steps} steps from {}: {worst:.1e}",
+                camera.distance
+            );
             // the integrals in f64 are good to 1e-5 of absolute depths
             assert!(worst < 3.0 * BOUND, "{formula}, {steps} steps: {worst:e}");
         }

@@ -95,7 +95,7 @@ fn observe(seen: &mut [Seen], lane: usize, event: &Event) {
     match (event.site.function_name.as_str(), event.site.kind) {
         ("sight_at", SiteKind::Leave) => {
             let v = numbers(event);
-            assert_eq!(v.len(), 11, "ray, forward, slope, parallel");
+            assert_eq!(v.len(), 12, "ray, forward, slope, parallel, before");
             seen.sight = Sight {
                 origin: vector(&v),
                 direction: vector(&v[3..]),
@@ -106,8 +106,8 @@ fn observe(seen: &mut [Seen], lane: usize, event: &Event) {
         }
         ("screen_rate", SiteKind::Enter) => {
             let v = numbers(event);
-            assert_eq!(v.len(), 18, "sight, t, n, gradient");
-            seen.asked = Some((v[11], vector(&v[12..]), vector(&v[15..])));
+            assert_eq!(v.len(), 19, "sight, t, n, gradient");
+            seen.asked = Some((v[12], vector(&v[13..]), vector(&v[16..])));
         }
         ("screen_rate", SiteKind::Leave) => {
             if let (Some((t, n, gradient)), None) = (seen.asked, seen.rate) {
