@@ -158,7 +158,7 @@ def sections(rng):
         yield name.replace("lj", "lk"), f"f(x) = besselk({n}, x)", bessel_k(n), rising + line(0, 30, 15, rng)
     yield "besselj_minus_3", "f(x) = besselj(-3, x)", bessel(mp.besselj, -3, 1), line(-20, 20, 15, rng)
     yield "bessely_minus_3", "f(x) = bessely(-3, x)", bessel(mp.bessely, -3, 1), line(0, 20, 15, rng)
-    yield "besseli_minus_3", "f(x) = besseli(-3, x)", bessel(mp.besseli, -3, -1), line(-20, 20, 15, rng)
+    yield "besseli_minus_3", "f(x) = besseli(-3, x)", bessel(mp.besseli, 3, -1), line(-20, 20, 15, rng)
     yield "besselk_minus_3", "f(x) = besselk(-3, x)", bessel_k(-3), line(0, 20, 15, rng)
     plane = lambda r: disc(r, 30, rng) + disc(1.5, 12, rng) + around(0, rng, (0.3, 1e-2)) + disc(30, 25, rng)
     for n in (0, 1, 2, 5, 10):
