@@ -48,7 +48,9 @@ macro_rules! gallery {
     };
 }
 
-const GALLERY: [(&str, &str, &str); 68] = gallery![
+const GALLERY: [(&str, &str, &str); 70] = gallery![
+    "bessel",
+    "harmonic",
     "charges",
     "confocal",
     "doyle-mcmullen",
