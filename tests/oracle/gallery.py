@@ -167,12 +167,26 @@ def function(fn, d1, d2):
     return call
 
 
+def defined(fn, d1, d2):
+    """A special function that is defined in the language: the scale is its goal, see special.py."""
+
+    def call(x):
+        if not isinstance(x, Dual):
+            return fn(mp.mpmathify(x))
+        z = x.a.v
+        value = Num(fn(z), abs(d1(z)) * (x.a.e + abs(z) / 2) + 4 * abs(fn(z)))
+        return x.chain(value, Num(d1(z), abs(d2(z)) * (x.a.e + 2 * abs(z)) + 16 * abs(d1(z))))
+
+    return call
+
+
 sin = function(mp.sin, mp.cos, lambda x: -mp.sin(x))
 cos = function(mp.cos, lambda x: -mp.sin(x), lambda x: -mp.cos(x))
 tan = function(mp.tan, lambda x: 1 + mp.tan(x) ** 2, lambda x: 2 * mp.tan(x) * (1 + mp.tan(x) ** 2))
 exp = function(mp.exp, mp.exp, mp.exp)
 log = function(mp.log, lambda x: 1 / x, lambda x: -1 / x**2)
 log1p = function(mp.log1p, lambda x: 1 / (1 + x), lambda x: -1 / (1 + x) ** 2)
+bessel_j0 = defined(lambda x: mp.besselj(0, x), lambda x: -mp.besselj(1, x), lambda x: (mp.besselj(2, x) - mp.besselj(0, x)) / 2)
 sqrt = function(mp.sqrt, lambda x: 1 / (2 * mp.sqrt(x)), lambda x: -1 / (4 * x * mp.sqrt(x)))
 
 
@@ -391,6 +405,7 @@ def halley(z):
 
 
 HOLOMORPHIC = {
+    "bessel": (bessel_j0, 7, [0, 2.4048256, 3.8317060, -5.5200781, 2j, -3j, 6j]),
     "confocal": (lambda z: 2 * sin(z), 3, [0, 1.5707964, -1.5707964, 3.1415927, 1j]),
     "lambert": (lambda z: z * exp(z), 3, [0, -1, -2 + 3.1415927j, 0.5671433]),
     "doyle-mcmullen": (halley, 1.5, [0, 1, 0.309017 + 0.95105652j, -0.9221080, 0.746]),
@@ -424,6 +439,13 @@ def kummer(x, y, z):
     scale = (3 * m - 1) / (3 - m)
     planes = (1 - z - ROOT2 * x) * (1 - z + ROOT2 * x) * (1 + z + ROOT2 * y) * (1 + z - ROOT2 * y)
     return (x**2 + y**2 + z**2 - m) ** 2 - scale * planes
+
+
+def harmonic(x, y, z):
+    """Of degree 5 and order 3, from sin³θ cos 3φ (9 cos²θ - 1)."""
+    r = hypot3(x, y, z)
+    u, v, w = x / r, y / r, z / r
+    return r - 2 * absolute(mp.sqrt(385 / (2 * PI)) / 16 * (u * (u * u - 3 * v * v) * (9 * w * w - 1)))
 
 
 def tanglecube(x, y, z):
@@ -603,6 +625,7 @@ SPACE = {
     "tanglecube": (tanglecube, 3, [(1.5811388, 1.5811388, 0), (0, 0, 0), (1.5811388, 1.5811388, 1.5811388)]),
     "chmutov": (chmutov, 1.25, [(0, 0.70710677, 0.70710677), (0.70710677, 0.70710677, 1), (1, 1, 1)]),
     "steiner": (lambda x, y, z: x**2 * y**2 + y**2 * z**2 + z**2 * x**2 - x * y * z, 0.625, [(0.5, 0, 0), (0, 0, 0.25), (0, -0.5, 0), (0.33333334, 0.33333334, 0.33333334)]),
+    "harmonic": (harmonic, 1, [(0, 0, 1), (0, 0.5, 0.5), (0.5, 0, 0), (0.5, 0.25, 0.1767767), (0.3, 0.1, -0.6)]),
     "torus": (lambda x, y, z: (hypot(x, y) - 1) ** 2 + z**2 - mp.mpf("0.25"), 2, [(1, 0, 0), (1.5, 0, 0), (0, 0, 0), (0, 1, 0.5)]),
     "ding-dong": (lambda x, y, z: x**2 + y**2 - (1 - z) * z**2, 1.25, [(0, 0, 0), (0, 0, 1), (0.3849002, 0, 0.6666667)]),
     "heart": (lambda x, y, z: (x**2 + mp.mpf("2.25") * y**2 + z**2 - 1) ** 3 - x**2 * z**3 - mp.mpf(9) / 80 * y**2 * z**3, 1.5, [(1, 0, 0), (0, 0, 1), (0, 0.6666667, 0), (0, 0, 0)]),

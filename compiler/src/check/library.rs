@@ -49,6 +49,11 @@ const SOURCE: &str = concat!(
     include_str!("library/special/modular.pull"),
     include_str!("library/special/gamma.pull"),
     include_str!("library/special/dilogarithm.pull"),
+    include_str!("library/special/bessel.pull"),
+    include_str!("library/special/exponential_integral.pull"),
+    include_str!("library/special/fresnel.pull"),
+    include_str!("library/special/beta.pull"),
+    include_str!("library/special/polynomial.pull"),
 );
 
 /// Longest chain of definitions of the library that call each other.

@@ -18,6 +18,7 @@ mod suggest;
 mod symbols;
 mod value;
 mod variables;
+mod whole;
 
 pub(crate) use bounds::Bounds;
 pub use builder::{Builder, MAX_DEPTH, Source};

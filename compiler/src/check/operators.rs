@@ -175,6 +175,9 @@ impl<'a> Builder<'a> {
         if boolean || (complex && !accepts_complex) {
             return self.mismatched(prim, args, span);
         }
+        if let Some(problem) = self.not_whole(prim, ids, span) {
+            return self.report(problem);
+        }
         let id = self.graph.apply(prim, ids);
         self.warn_of_nan(prim, ids, id, span);
         Value::Scalar(id)

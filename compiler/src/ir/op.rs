@@ -183,6 +183,30 @@ pub enum Prim {
     ModularLambdaSlope,
     /// The n-th derivative by z of the elliptic function of Weierstrass.
     WeierstrassP(u8),
+    /// Bessel function J, of (order, z).
+    BesselJ,
+    /// Bessel function Y, of (order, x); the same of I and K.
+    BesselY,
+    BesselI,
+    BesselK,
+    ExpintE1,
+    ExpintEi,
+    Sinint,
+    Cosint,
+    Logint,
+    FresnelS,
+    FresnelC,
+    EulerBeta,
+    /// ψ(a + b) - ψ(a)
+    DigammaRise,
+    /// Chebyshev polynomial of the first kind, of (degree, x).
+    ChebyshevT,
+    /// Gegenbauer polynomial, of (degree, parameter, x).
+    GegenbauerC,
+    /// Hermite polynomial of the physicists, of (degree, x).
+    HermiteH,
+    /// Generalized Laguerre polynomial, of (degree, parameter, x).
+    LaguerreL,
     /// `a^(b + c)` for a whole constant c, b + c not rounded.
     PowShift,
     AtanSlope,

@@ -4,7 +4,7 @@ use super::derivative::{call, plus, scaled, square};
 use super::{DEFINED, Derivative, Gpu, Row, Typing, Weight};
 use crate::ir::{Graph, Id, Op, Prim};
 
-type Partial = fn(&mut Graph, &[Id], Id, usize) -> Id;
+pub(super) type Partial = fn(&mut Graph, &[Id], Id, usize) -> Id;
 
 /// The last member of a family that there is a definition of.
 pub fn last_order(prim: Prim) -> u8 {
@@ -26,12 +26,12 @@ fn order(g: &Graph, value: Id) -> u8 {
     }
 }
 
-fn undefined(g: &mut Graph) -> Id {
+pub(super) fn undefined(g: &mut Graph) -> Id {
     g.real(f64::NAN)
 }
 
 /// A row of a function that is written by its name.
-fn named(
+pub(super) fn named(
     prim: Prim,
     names: &'static [&'static str],
     usage: &'static str,

@@ -4,6 +4,7 @@
 //! reference and the generated tests read it. Adding an operation is adding a row (and its [`Prim`]).
 
 mod arithmetic;
+mod bessel;
 mod bounds;
 mod cardinal;
 mod comparison;
@@ -11,15 +12,18 @@ mod complex;
 mod defined;
 mod derivative;
 mod exponential;
+mod exponential_integral;
 mod hyperbolic;
 mod integral;
 mod library;
 mod number;
+mod polynomial;
 mod rounding;
 mod slope;
 mod special;
 mod trigonometric;
 mod typing;
+mod whole;
 
 use std::mem::{Discriminant, discriminant};
 use std::sync::OnceLock;
@@ -34,6 +38,7 @@ pub use number::Number;
 pub(crate) use slope::direction;
 pub use special::MAX_POLYGAMMA;
 pub use typing::Typing;
+pub use whole::{Whole, whole};
 
 use crate::ir::{Graph, Id, Prim};
 use crate::reference::Complex;
@@ -210,6 +215,9 @@ pub fn rows() -> &'static [Row] {
         rows.extend(comparison::rows());
         rows.extend(special::rows());
         rows.extend(defined::rows());
+        rows.extend(bessel::rows());
+        rows.extend(exponential_integral::rows());
+        rows.extend(polynomial::rows());
         rows.extend(slope::rows());
         rows
     })

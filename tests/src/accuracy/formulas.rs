@@ -48,7 +48,9 @@ macro_rules! gallery {
     };
 }
 
-const GALLERY: [(&str, &str, &str); 68] = gallery![
+const GALLERY: [(&str, &str, &str); 70] = gallery![
+    "bessel",
+    "harmonic",
     "charges",
     "confocal",
     "doyle-mcmullen",
@@ -126,7 +128,10 @@ const LIBRARY: &str = concat!(
     include_str!("../../data/functions/light.txt"),
 );
 
-const SPECIAL: &str = include_str!("../../data/functions/special.txt");
+const SPECIAL: &str = concat!(
+    include_str!("../../data/functions/special.txt"),
+    include_str!("../../data/functions/special_bessel.txt"),
+);
 
 /// The formulas of the gallery.
 #[must_use]
