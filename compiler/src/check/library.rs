@@ -49,6 +49,10 @@ const SOURCE: &str = concat!(
     include_str!("library/special/modular.pull"),
     include_str!("library/special/gamma.pull"),
     include_str!("library/special/dilogarithm.pull"),
+    include_str!("library/special/theta.pull"),
+    include_str!("library/special/jacobi.pull"),
+    include_str!("library/special/hurwitz.pull"),
+    include_str!("library/special/hypergeometric.pull"),
 );
 
 /// Longest chain of definitions of the library that call each other.

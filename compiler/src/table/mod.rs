@@ -10,6 +10,7 @@ mod comparison;
 mod complex;
 mod defined;
 mod derivative;
+mod elliptic;
 mod exponential;
 mod hyperbolic;
 mod integral;
@@ -210,6 +211,7 @@ pub fn rows() -> &'static [Row] {
         rows.extend(comparison::rows());
         rows.extend(special::rows());
         rows.extend(defined::rows());
+        rows.extend(elliptic::rows());
         rows.extend(slope::rows());
         rows
     })
