@@ -54,6 +54,10 @@ const SOURCE: &str = concat!(
     include_str!("library/special/fresnel.pull"),
     include_str!("library/special/beta.pull"),
     include_str!("library/special/polynomial.pull"),
+    include_str!("library/special/theta.pull"),
+    include_str!("library/special/jacobi.pull"),
+    include_str!("library/special/hurwitz.pull"),
+    include_str!("library/special/hypergeometric.pull"),
 );
 
 /// Longest chain of definitions of the library that call each other.

@@ -207,6 +207,21 @@ pub enum Prim {
     HermiteH,
     /// Generalized Laguerre polynomial, of (degree, parameter, x).
     LaguerreL,
+    /// The same of the lattice with invariants g₂, g₃.
+    WeierstrassPInvariants(u8),
+    /// The n-th derivative by z of the theta functions of Jacobi, of z and the nome.
+    JacobiTheta1(u8),
+    JacobiTheta2(u8),
+    JacobiTheta3(u8),
+    JacobiTheta4(u8),
+    /// Elliptic functions of Jacobi of u and the parameter m.
+    JacobiSn,
+    JacobiCn,
+    JacobiDn,
+    /// The n-th derivative by s of the zeta function of Hurwitz, of s and a.
+    HurwitzZeta(u8),
+    /// Gauss's hypergeometric function of a, b, c and z.
+    Hypergeometric,
     /// `a^(b + c)` for a whole constant c, b + c not rounded.
     PowShift,
     AtanSlope,
@@ -257,7 +272,13 @@ impl Prim {
             | Self::EisensteinE2(n)
             | Self::EisensteinE4(n)
             | Self::EisensteinE6(n)
-            | Self::WeierstrassP(n) => Some(n),
+            | Self::WeierstrassP(n)
+            | Self::WeierstrassPInvariants(n)
+            | Self::JacobiTheta1(n)
+            | Self::JacobiTheta2(n)
+            | Self::JacobiTheta3(n)
+            | Self::JacobiTheta4(n)
+            | Self::HurwitzZeta(n) => Some(n),
             _ => None,
         }
     }
@@ -281,6 +302,12 @@ impl Prim {
             Self::EisensteinE4(_) => Self::EisensteinE4(n),
             Self::EisensteinE6(_) => Self::EisensteinE6(n),
             Self::WeierstrassP(_) => Self::WeierstrassP(n),
+            Self::WeierstrassPInvariants(_) => Self::WeierstrassPInvariants(n),
+            Self::JacobiTheta1(_) => Self::JacobiTheta1(n),
+            Self::JacobiTheta2(_) => Self::JacobiTheta2(n),
+            Self::JacobiTheta3(_) => Self::JacobiTheta3(n),
+            Self::JacobiTheta4(_) => Self::JacobiTheta4(n),
+            Self::HurwitzZeta(_) => Self::HurwitzZeta(n),
             other => other,
         }
     }

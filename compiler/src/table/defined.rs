@@ -10,16 +10,23 @@ pub(super) type Partial = fn(&mut Graph, &[Id], Id, usize) -> Id;
 pub fn last_order(prim: Prim) -> u8 {
     match prim {
         Prim::Faddeeva(_) => 3,
+        Prim::JacobiTheta1(_)
+        | Prim::JacobiTheta2(_)
+        | Prim::JacobiTheta3(_)
+        | Prim::JacobiTheta4(_) => 4,
         _ => 1,
     }
 }
 
 /// Whether the last member of a family has a derivative all the same: by those before it.
 pub fn is_closed(prim: Prim) -> bool {
-    matches!(prim, Prim::WeierstrassP(_))
+    matches!(
+        prim,
+        Prim::WeierstrassP(_) | Prim::WeierstrassPInvariants(_)
+    )
 }
 
-fn order(g: &Graph, value: Id) -> u8 {
+pub(super) fn order(g: &Graph, value: Id) -> u8 {
     match g.node(value).op {
         Op::Apply(prim) => prim.order().unwrap_or(0),
         _ => 0,

@@ -11,6 +11,7 @@ mod comparison;
 mod complex;
 mod defined;
 mod derivative;
+mod elliptic;
 mod exponential;
 mod exponential_integral;
 mod hyperbolic;
@@ -218,6 +219,7 @@ pub fn rows() -> &'static [Row] {
         rows.extend(bessel::rows());
         rows.extend(exponential_integral::rows());
         rows.extend(polynomial::rows());
+        rows.extend(elliptic::rows());
         rows.extend(slope::rows());
         rows
     })

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Write tests/data/functions/elliptic.txt: theta and elliptic functions, and series of several arguments.
+
+usage: elliptic.py [OUT_FILE]     (needs mpmath; default ../data/functions/elliptic.txt beside this file)
+
+Values and derivatives by mpmath with 60 digits: theta functions as their sums, elliptic functions as quotients of those, without any
+transformation. The scale is that of special.py: 16 u of the norm of the value, 64 u of that of a derivative, and what one unit in
+the last place of any argument moves, those that are constants in the formula, too. README.md beside this file has the format.
+"""
+import os
+import random
+import sys
+
+import mpmath as mp
+
+from special import LARGEST, LEAST, SIDE, around, disc, f32, point, show, strip, three
+
+mp.mp.dps = 60
+STEP = mp.mpf(10) ** -12
+
+
+def difference(f, x):
+    """The derivative: the error is the fourth power of the step."""
+    h = STEP * max(1, abs(x))
+    return (8 * (f(x + h) - f(x - h)) - (f(x + 2 * h) - f(x - 2 * h))) / (12 * h)
+
+
+def lattice_function(g2, g3):
+    with mp.workdps(200):
+        e1, e2, e3 = mp.polyroots([4, 0, -g2, -g3], maxsteps=3000, extraprec=3000, error=False)
+    return e1, e2, e3
+
+
+def weierstrass(z, g2, g3):
+    """DLMF 23.6.21"""
+    if g2 == 0 and g3 == 0:
+        return 1 / z**2
+    e1, e2, e3 = lattice_function(g2, g3)
+    return e3 + (e1 - e3) / mp.ellipfun("sn", mp.sqrt(e1 - e3) * z, m=(e2 - e3) / (e1 - e3)) ** 2
+
+
+def sections(rng):
+    """Name, formula with the constants as {0}, {1}, …, function of the argument and the constants, the constants, points."""
+    small = (0.3, 1e-2)
+    nomes = (("", 0.1), ("_complex", 0.3 + 0.2j), ("_negative", -0.5 + 0.125j), ("_near_1", 0.9), ("_circle", 0.7 - 0.68j))
+    for k in (1, 2, 3, 4):
+        word = f"jacobi_theta{k}"
+        theta = lambda z, q, k=k: mp.jtheta(k, z, q)
+        for name, q in nomes:
+            size = 1.2 if "circle" in name or "near" in name else 3
+            yield word + name, f"f(z) = {word}(z, {{0}})", theta, [q], disc(size, 16, rng) + around(0, rng, small) + around(1.5707963, rng, (1e-2,))
+        yield word + "_prime", f"f(z) = diff({word}(z, {{0}}), z)", lambda z, q, k=k: mp.jtheta(k, z, q, derivative=1), [0.3 + 0.2j], disc(3, 14, rng)
+        of_nome = lambda q, z, k=k: mp.jtheta(k, z, q)
+        inside = [p for p in disc(0.96, 40, rng) if abs(p) < 0.96] + around(0, rng, small)
+        yield word + "_nome", f"f(z) = {word}({{0}}, z)", of_nome, [0.3 + 0.2j], inside
+        yield word + "_real", f"f(x) = {word}(x, {{0}})", theta, [0.4], [complex(x) for x in (-7.5, -2, -0.7, -0.01, 0.01, 0.3, 1, 1.57, 2.5, 6)]
+        yield word + "_real_nome", f"f(x) = {word}({{0}}, x)", of_nome, [0.7], [complex(x) for x in (1e-6, 0.01, 0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98)]
+    for kind in ("sn", "cn", "dn"):
+        word = f"jacobi_{kind}"
+        f = lambda u, m, kind=kind: mp.ellipfun(kind, u, m=m)
+        for name, m in (("", 0.5), ("_near_1", 0.96875), ("_above_1", 2.5), ("_negative", -3), ("_complex", 0.25 + 0.5j), ("_far", -8 + 6j)):
+            yield word + name, f"f(z) = {word}(z, {{0}})", f, [m], disc(3, 24, rng) + around(0, rng, small) + around(1.8540747, rng, small) + around(1.8540747j, rng, small)
+        for name, m in (("_real", 0.75), ("_real_above_1", 1.75), ("_real_negative", -1.5)):
+            yield word + name, f"f(x) = {word}(x, {{0}})", f, [m], [complex(x) for x in (-9, -3.3, -1.2, -0.4, -1e-3, 1e-3, 0.2, 0.7, 1.9, 2.6, 4.1, 7.7)]
+    lattices = (("_square", 4, 0), ("_hexagonal", 0, 4), ("_real", 4, 1), ("_rhombic", -2, 1), ("_complex", 1 + 2j, -3 + 1j), ("_small", 2**-10, 2**-13), ("_double", 12, 8), ("_rational", 0, 0))
+    for name, g2, g3 in lattices:
+        some = disc(1.7, 30, rng) + around(0, rng, small)
+        yield "weierstrass_p_invariants" + name, "f(z) = weierstrass_p_invariants(z, {0}, {1})", weierstrass, [g2, g3], some
+        slope = lambda z, g2, g3: difference(lambda z: weierstrass(z, g2, g3), z)
+        if name in ("_real", "_complex"):
+            yield "weierstrass_p_invariants_prime" + name, "f(z) = weierstrass_p_prime_invariants(z, {0}, {1})", slope, [g2, g3], some[:16]
+    hurwitz = lambda s, a: mp.zeta(s, mp.re(a))
+    right = strip((0, 12), (-20, 20), 24, rng) + strip((0.4, 0.6), (-80, 80), 6, rng) + [p for p in around(1, rng)] + [complex(x) for x in (0, 0.5, 2, 7, 25)]
+    for name, a in (("", 0.25), ("_1", 1), ("_large", 30.5)):
+        yield "hurwitz_zeta" + name, "f(z) = hurwitz_zeta(z, {0})", hurwitz, [a], right
+    yield "hurwitz_zeta_real", "f(x) = hurwitz_zeta(x, {0})", hurwitz, [0.75], [complex(x) for x in (0, 0.1, 0.5, 0.9, 1.1, 1.5, 2, 3.7, 8, 20)]
+    yield "hurwitz_zeta_shift", "f(x) = hurwitz_zeta({0}, x)", lambda a, s: mp.zeta(s, mp.re(a)), [1.5], [complex(x) for x in (0.01, 0.1, 0.3, 0.7, 1, 1.5, 3, 10, 100)]
+    inside = [p for p in disc(0.95, 40, rng) if abs(p) < 0.95] + around(0, rng, small) + [-3 + 2j, -30 + 0.1j, 0.4 + 2j]
+    real = [complex(x) for x in (-1e3, -20, -3, -0.9, -0.3, -1e-3, 1e-3, 0.2, 0.5, 0.7, 0.85, 0.95)]
+    for k, (a, b, c) in enumerate(((0.5, 0.5, 1), (1, 2, 3), (-0.25, 0.75, 1.5), (2.5, -1.25, 0.5), (-3, 4, 1), (1, 1, 2))):
+        f = lambda z, a, b, c: mp.hyp2f1(a, b, c, z)
+        yield f"hypergeometric_{k}", "f(z) = hypergeometric({0}, {1}, {2}, z)", f, [a, b, c], inside
+        yield f"hypergeometric_{k}_real", "f(x) = hypergeometric({0}, {1}, {2}, x)", f, [a, b, c], real
+
+
+def constant(c, real):
+    """As the formula writes it, and exactly."""
+    re, im = f32(complex(c).real), f32(complex(c).imag)
+    if real or im == 0:
+        return mp.nstr(mp.mpf(re), 17), mp.mpf(re)
+    return f"complex({mp.nstr(mp.mpf(re), 17)}, {mp.nstr(mp.mpf(im), 17)})", mp.mpc(re, im)
+
+
+def row(z, real, f, constants):
+    at = mp.mpf(z.real) if real else mp.mpc(z.real, z.imag or SIDE)
+    value = lambda x, c=constants: mp.mpmathify(f(x, *c))
+    slope = lambda x, c=constants: difference(lambda x: value(x, c), x)
+    v, d, curve = value(at), slope(at), difference(slope, at)
+    moved = [abs(at) * abs(d), abs(at) * abs(curve)]
+    for k, c in enumerate(constants):
+        h = STEP * abs(c)
+        near = [*constants[:k], c + h, *constants[k + 1 :]]
+        if h != 0:
+            moved[0] += abs(c) * abs(value(at, near) - v) / h
+            moved[1] += abs(c) * abs(slope(at, near) - d) / h
+    return v, d, [4 * abs(v) + moved[0] / 2, 16 * abs(d) + 2 * moved[1]]
+
+
+def write(fh, name, formula, f, constants, points):
+    real = formula.startswith("f(x)")
+    shown = [constant(c, real) for c in constants]
+    fh.write(f"# {name} | {formula.format(*(text for text, _ in shown))}\n")
+    if real:
+        fh.write("# x\tf\tdx\tscale_f\tscale_dx\tnotes\n")
+    else:
+        fh.write("# z.re\tz.im\tf.re\tf.im\tdz.re\tdz.im\tscale_f\tscale_dz\tnotes\n")
+    for z in dict.fromkeys(point(complex(p)) for p in points):
+        try:
+            value, slope, scales = row(z, real, f, [c for _, c in shown])
+        except (ValueError, ZeroDivisionError, mp.libmp.libhyper.NoConvergence):
+            continue
+        if any(not mp.isfinite(v) or abs(v) > LARGEST or abs(v) < LEAST for v in (value, slope)):
+            continue
+        cells = [show(z.real)] if real else [show(z.real), show(z.imag)]
+        for v in (value, slope):
+            cells += [show(mp.re(v))] if real else [show(mp.re(v)), show(mp.im(v))]
+        fh.write("\t".join(cells + [three(s) for s in scales] + ["-"]) + "\n")
+
+
+def main():
+    here = os.path.dirname(os.path.abspath(__file__))
+    path = sys.argv[1] if len(sys.argv) > 1 else os.path.join(here, "..", "data", "functions", "elliptic.txt")
+    rng = random.Random(9)
+    with open(path, "w", encoding="utf-8") as fh:
+        for section in sections(rng):
+            write(fh, *section)
+            print(section[0], flush=True)
+
+
+if __name__ == "__main__":
+    main()
