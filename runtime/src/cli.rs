@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod animate;
+mod bench;
 mod check;
 mod console;
 mod diff;
@@ -89,6 +90,9 @@ enum Command {
     /// Measure what each choice between speed and accuracy costs and gives, for one picture
     #[command(after_help = EXIT_CODES)]
     Measure(measure::MeasureArguments),
+    /// Time programs from their text to their picture, and compare with an earlier run
+    #[command(after_help = EXIT_CODES)]
+    Bench(bench::BenchArguments),
     /// Show what is computed on the way to a pixel, and where machines part
     #[command(after_help = EXIT_CODES)]
     Probe(probe::ProbeArguments),
@@ -313,6 +317,7 @@ pub(crate) fn run(arguments: Arguments, console: &Console) -> u8 {
         Command::Gallery(arguments) => gallery::run(&arguments, console),
         Command::Diff(arguments) => diff::run(&arguments, console),
         Command::Measure(arguments) => measure::run(&arguments, console),
+        Command::Bench(arguments) => bench::run(&arguments, console),
         Command::Probe(arguments) => probe::run(&arguments, console),
         Command::Doctor(arguments) => doctor::run(&arguments, console),
         Command::Accuracy(arguments) => accuracy::run(&arguments, console),

@@ -20,6 +20,7 @@ pub mod accuracy;
 pub mod animation;
 pub mod atomic_file;
 pub mod auto;
+pub mod bench;
 pub mod capabilities;
 pub mod decorate;
 pub mod device;

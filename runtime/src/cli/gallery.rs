@@ -55,7 +55,7 @@ pub(super) struct GalleryArguments {
 
 /// Draws all pictures of all programs, and writes the sheet. Those that cannot be drawn are told, and stay empty.
 pub(super) fn run(arguments: &GalleryArguments, console: &Console) -> Result<(), Failure> {
-    let subjects = subjects(arguments, console)?;
+    let subjects = compiled(&arguments.inputs, arguments.tile, console)?;
     if let Some(other) = &arguments.compare {
         return compare::run(arguments, other, &subjects, console);
     }
@@ -104,14 +104,27 @@ struct Subjects {
     failed: usize,
 }
 
-fn subjects(arguments: &GalleryArguments, console: &Console) -> Result<Subjects, Failure> {
+/// The first picture of every program in files and folders, or of the examples that this program carries; all must be right.
+pub(super) fn subjects(
+    inputs: &[PathBuf],
+    size: Size,
+    console: &Console,
+) -> Result<Vec<Subject>, Failure> {
+    let found = compiled(inputs, size, console)?;
+    if found.failed > 0 {
+        return Err(Failure::Program);
+    }
+    Ok(found.pictures)
+}
+
+fn compiled(inputs: &[PathBuf], size: Size, console: &Console) -> Result<Subjects, Failure> {
     let mut texts = Vec::new();
-    for input in &arguments.inputs {
+    for input in inputs {
         for path in programs(input)? {
             texts.push(Text::file(&path)?);
         }
     }
-    if arguments.inputs.is_empty() {
+    if inputs.is_empty() {
         texts.extend(EXAMPLES.iter().map(|&(name, text)| Text {
             name: name.to_owned(),
             stem: name.to_owned(),
@@ -124,7 +137,7 @@ fn subjects(arguments: &GalleryArguments, console: &Console) -> Result<Subjects,
     };
     for text in texts {
         match Source::compiled(text, console) {
-            Ok(source) => found.pictures.push(Subject::small(source, arguments.tile)?),
+            Ok(source) => found.pictures.push(Subject::small(source, size)?),
             Err(Failure::Program) => found.failed += 1,
             Err(failure) => return Err(failure),
         }

@@ -98,6 +98,14 @@ impl Subject {
         }
     }
 
+    /// The frame with one sample a pixel.
+    pub(super) fn single<'a>(&'a self, settings: &'a [u8]) -> Frame<'a> {
+        Frame {
+            samples: 1,
+            ..self.frame(settings)
+        }
+    }
+
     /// The tier to draw with on what the tiers can be tried on.
     pub(super) fn precision(
         &self,
