@@ -180,6 +180,20 @@ fn several_pictures_are_a_table() {
         lines.iter().all(|line| cells(line) == cells(lines[0])),
         "{table}"
     );
+    // a run that was stopped goes on where the file ends
+    let kept = [&arguments[..], &["-o", "table.md"]].concat();
+    let path = folder.path().join("table.md");
+    let begun = table.lines().take(7).collect::<Vec<_>>().join("\n") + "\n";
+    std::fs::write(&path, &begun).unwrap();
+    assert_eq!(pullback(folder.path(), &kept).0, 0);
+    let whole = std::fs::read_to_string(&path).unwrap();
+    let count = |text: &str| text.lines().count();
+    assert!(
+        whole.starts_with(&begun) && count(&whole) == count(&begun) + 1,
+        "{whole}"
+    );
+    std::fs::write(&path, "another\n").unwrap();
+    assert_eq!(pullback(folder.path(), &kept).0, 2);
     let json = [&arguments[..], &["--format", "json"]].concat();
     assert_eq!(pullback(folder.path(), &json).0, 2);
 }

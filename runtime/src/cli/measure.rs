@@ -33,7 +33,8 @@ pub(super) struct MeasureArguments {
     /// one line each. Before a formula that begins with a minus, write --
     #[arg(value_name = "FILE|FORMULA", required = true)]
     inputs: Vec<OsString>,
-    /// A report with charts and pictures in one file that needs no other, .html
+    /// A report with charts and pictures in one file that needs no other, .html; of several programs the table, .md, to
+    /// which a run that was stopped adds what it lacks
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Seconds that a picture's choices may take in all, as far as single pictures allow
@@ -93,16 +94,21 @@ pub(super) fn run(arguments: &MeasureArguments, console: &Console) -> Result<(),
     if let [input] = arguments.inputs.as_slice() {
         return one(arguments, input, &gpu, console);
     }
-    if arguments.output.is_some() || matches!(arguments.format, Format::Json) {
+    if matches!(arguments.format, Format::Json) {
         return Err(Failure::usage_hint(
-            "a report and JSON are of one picture",
-            "leave --output and --format out, or measure one file at a time",
+            "JSON is of one picture",
+            "leave --format out, or measure one file at a time",
         ));
     }
-    summary::head(&gpu.adapter().to_string(), arguments.size).map_err(Failure::stdout)?;
+    let head = summary::head(&gpu.adapter().to_string(), arguments.size);
+    let mut table = summary::Table::open(head, arguments.output.as_deref())?;
     for input in &arguments.inputs {
-        let (name, report) = measured(arguments, input, &gpu, console)?;
-        summary::row(&name, &report).map_err(Failure::stdout)?;
+        if table.has(input) {
+            console.note(&format!("{}: in the table", input.to_string_lossy()));
+            continue;
+        }
+        let (_, report) = measured(arguments, input, &gpu, console)?;
+        table.add(&summary::row(input, &report))?;
     }
     Ok(())
 }
