@@ -79,7 +79,13 @@ fn the_libraries_are_valid_and_whole() {
 }
 
 /// What the drawing library leaves to the formula and to the template.
-const OPEN: [&str; 4] = ["field_ray", "field_grad", "seen_bound", "colour_entry"];
+const OPEN: [&str; 5] = [
+    "field",
+    "field_ray",
+    "field_grad",
+    "seen_bound",
+    "colour_entry",
+];
 
 /// The stub for a second formula, which gives colours.
 const COLOURS: &str = "field_colour";

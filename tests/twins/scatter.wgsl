@@ -106,9 +106,12 @@ fn shade(pixel: vec2f) -> vec3f {
     let count = ceil((span.y - span.x) / DIAGONAL * 96.0);
     let ds = (span.y - span.x) / count;
     let jitter = phase(pixel);
+    // what comes through at last, so that no more light is left out than by the scene
+    let bright = direct + AMBIENT;
+    let least = 0.0005 / max(1.1 * max(bright.x, max(bright.y, bright.z)), 1.0);
     var light = vec3f();
     var through = 1.0;
-    for (var k = 0.0; k < count && through > 0.0005; k += 1.0) {
+    for (var k = 0.0; k < count && through > least; k += 1.0) {
         let p = o + (span.x + (k + jitter) * ds) * d;
         let rho = density(p);
         if rho > 0.0 {

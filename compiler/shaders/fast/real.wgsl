@@ -21,3 +21,8 @@ fn real_hypot(x: f32, y: f32) -> f32 {
 fn real_direction(x: f32, y: f32, r: f32) -> f32 {
     return select(x / r, 0.0, r == 0.0);
 }
+
+/// x/r for r = √(x² + y² + z²), and 0 at the origin.
+fn real_direction3(x: f32, y: f32, z: f32, r: f32) -> f32 {
+    return select(x / r, 0.0, r == 0.0);
+}

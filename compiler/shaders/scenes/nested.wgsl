@@ -123,6 +123,7 @@ struct Seen {
 @group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
 @group(0) @binding(2) var<uniform> settings: Settings;
 
+fn field(p: vec3f) -> f32 { return 0.0; }
 // f and df/dt at o + t d
 fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f { return vec2f(); }
 // (∂f/∂x, ∂f/∂y, ∂f/∂z, f)

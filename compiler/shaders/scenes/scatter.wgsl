@@ -123,6 +123,7 @@ fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) ->
 fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f { return vec4f(); }
 fn absorbed_part(x: f32) -> f32 { return 0.0; }
 fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
+fn part_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
 fn sample_phase(pixel: vec2f) -> f32 { return 0.0; }
 fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f { return vec3f(); }
 
@@ -136,7 +137,7 @@ const DENSEST: f32 = 1e4;
 const DEEPEST: f32 = 110.0;
 // 1/(4 π)
 const PER_SPHERE: f32 = 0.07957747154594767;
-// 1 over the golden ratio: phases of the ways of the light from one end of a stretch to the next.
+// 1 over the golden ratio: phases of the ways of the light from one stretch to the next.
 const GOLDEN: f32 = 0.6180339887498949;
 const BY_SAMPLES: u32 = 1u;
 
@@ -173,12 +174,10 @@ fn column_of(way: Way) -> f32 {
         }
     }
     var column = 0.0;
-    for (var k = view.zero; k <= way.count; k++) {
-        let stretch = stretch_at(k, way.count, way.phase, way.extent);
-        if stretch.y > stretch.x {
-            let middle = way.ray.origin + 0.5 * (stretch.x + stretch.y) * way.ray.direction;
-            column += (stretch.y - stretch.x) * density_of(field(middle));
-        }
+    for (var k = view.zero; k < way.count; k++) {
+        let part = part_at(k, way.count, way.phase, way.extent);
+        let middle = way.ray.origin + 0.5 * (part.x + part.y) * way.ray.direction;
+        column += (part.y - part.x) * density_of(field(middle));
     }
     return column;
 }
@@ -198,10 +197,9 @@ fn light_direction() -> vec3f {
 
 // From a point of the box towards the light, to where the box ends. On an axis along which the light does not go it is in
 // the middle for that: points of a face may be rounded to outside.
-fn way_to_light(p: vec3f, light: vec3f, phase: f32) -> Way {
+fn extent_to_light(p: vec3f, light: vec3f) -> f32 {
     let level = select(p, settings.center, light == vec3f(0.0));
-    let span = box_span(level, light, settings.center, settings.box);
-    return way_of(Ray(p, light), max(span.y, 0.0), settings.light_steps, phase);
+    return max(box_span(level, light, settings.center, settings.box).y, 0.0);
 }
 
 fn absorbed(depth: vec3f) -> vec3f {
@@ -246,29 +244,30 @@ fn scattered_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Scattered {
     let phase = sample_phase(pixel);
     let way = way_of(ray, span.y - start, settings.steps, phase);
     var seen = Scattered(vec3f(), vec3f(1.0));
-    // of the light from the end of the stretch before; negative: not known
-    var last = -1.0;
-    for (var k = view.zero; k <= way.count && greatest(seen.through) > least; k++) {
+    for (var k = view.zero; (k <= way.count) & (greatest(seen.through) > least); k++) {
         let stretch = stretch_at(k, way.count, way.phase, way.extent);
         let entry = ray.origin + (start + stretch.x) * ray.direction;
-        var columns = vec3f(0.0, last, 0.0);
-        // one place that evaluates the field: the stretch, and from its ends to the light
-        for (var j = view.zero; j < 3u; j++) {
-            if j == 1u && last >= 0.0 {
-                continue;
-            }
-            if j > 0u && columns.x <= 0.0 {
+        let length = stretch.y - stretch.x;
+        let middle = entry + 0.5 * length * ray.direction;
+        let extent = extent_to_light(middle, light);
+        // one place that evaluates the field: on the stretch, and from its middle to the light
+        var part = Way(Ray(entry, ray.direction), length, 1u, 0.5);
+        var column = 0.0;
+        var lit = 0.0;
+        for (var j = view.zero; j < 2u; j++) {
+            lit = column_of(part);
+            if j > 0u {
                 break;
             }
-            var part = Way(Ray(entry, ray.direction), stretch.y - stretch.x, 1u, 1.0);
-            if j > 0u {
-                let p = ray.origin + (start + select(stretch.x, stretch.y, j == 2u)) * ray.direction;
-                part = way_to_light(p, light, fract(phase + GOLDEN * f32(k + j)));
+            column = lit;
+            if column <= 0.0 {
+                break;
             }
-            columns[j] = column_of(part);
+            part = way_of(Ray(middle, light), extent, settings.light_steps, fract(phase + GOLDEN * f32(k)));
         }
-        last = select(-1.0, columns.z, columns.x > 0.0);
-        seen = seen_behind(seen, max(columns, vec3f(0.0)), cloud);
+        // as in a uniform medium, which is right to the second order in any: the column to the light changes as that way's extent
+        let ends = vec2f(extent_to_light(entry, light), extent_to_light(entry + length * ray.direction, light));
+        seen = seen_behind(seen, vec3f(column, lit * (ends / max(extent, 1e-20))), cloud);
     }
     return seen;
 }

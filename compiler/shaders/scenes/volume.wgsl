@@ -194,7 +194,7 @@ fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
     var whole = by_columns && is_of_one_colour();
     var seen = seen_nothing();
     var k = view.zero;
-    while k <= stretches.count && seen.through > THINNEST {
+    while (k <= stretches.count) & (seen.through > THINNEST) {
         let stretch = start + select(stretch_of(k, stretches), vec2f(0.0, stretches.extent), whole);
         var depth = -1.0;
         if by_columns {

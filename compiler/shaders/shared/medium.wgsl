@@ -71,10 +71,8 @@ const DENSEST_RATIO: f32 = 1e6;
 // What a value with its gradient is made of. Undefined values are empty; infinite ones are as the largest.
 fn matter_of(jet: vec4f, medium: Medium) -> Matter {
     let below = jet.w < 0.0;
-    if is_nan(jet.w) || (medium.signs == 1u && below) || (medium.signs == 2u && !below) {
-        return Matter(vec3f(), 0.0);
-    }
-    let x = min(abs(jet.w) / medium.scale, DENSEST_RATIO);
+    let empty = is_nan(jet.w) | ((medium.signs == 1u) & below) | ((medium.signs == 2u) & !below);
+    let x = select(min(abs(jet.w) / medium.scale, DENSEST_RATIO), 0.0, empty);
     let extinction = medium.density * raised(x, medium.power);
     let own = select(medium.positive, medium.negative, below);
     let level = x / (1.0 + x);
@@ -82,12 +80,12 @@ fn matter_of(jet: vec4f, medium: Medium) -> Matter {
     return Matter(colour * emission_shade(select(jet.xyz, -jet.xyz, below), medium), extinction);
 }
 
-// x^power for x >= 0. The square, which is the usual one, needs no logarithm.
+// x^power for x >= 0 and a power above 0. The square, which is the usual one, needs no logarithm.
 fn raised(x: f32, power: f32) -> f32 {
     if power == 2.0 {
         return x * x;
     }
-    return pow(max(x, 1e-30), power);
+    return select(pow(max(x, 1e-30), power), 0.0, x <= 0.0);
 }
 
 // Light and shade of an emitting medium by the direction in which its density falls, as if that were a normal: where
@@ -119,6 +117,14 @@ fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f {
 
 fn stretch_of(k: u32, stretches: Stretches) -> vec2f {
     return stretch_at(k, stretches.count, stretches.phase, stretches.extent);
+}
+
+// A way of this extent is cut into `count` parts whose borders are moved by up to half a part to both sides, as `phase` in 0..1 is:
+// the first and the last are longer or shorter. Begin and end of the k-th, 0 ≤ k < count.
+fn part_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f {
+    let length = extent / f32(count);
+    let middle = f32(k) + phase;
+    return vec2f(select((middle - 0.5) * length, 0.0, k == 0u), select((middle + 0.5) * length, extent, k + 1u == count));
 }
 
 // A medium in front of a picture.

@@ -76,6 +76,7 @@ const MOST_LAYERS: u32 = 96u;
 const THINNEST_SHELL: f32 = 0.002;
 
 // The formula, as in the template.
+fn field(p: vec3f) -> f32 { return 0.0; }
 fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f { return vec2f(); }
 fn field_grad(p: vec3f) -> vec4f { return vec4f(); }
 // The template's: what bounds the way of a ray at distance t, in front of the levels or, where `last`, behind them.
@@ -86,33 +87,46 @@ fn seen_shells(before: Seen, sight: Sight, part: vec2f, half_size: vec3f, steps:
     let d = sight.ray.direction;
     let origin = sight.ray.origin + part.x * d;
     let extent = part.y - part.x;
-    var march = march_over(extent, u32(ceil(extent / (2.0 * length(half_size)) * f32(steps))));
+    let way = steps_over(extent, u32(ceil(extent / (2.0 * length(half_size)) * f32(steps))));
+    let stride = way.step * d;
+    var walk: Walk;
     var seen = before;
     // One place evaluates the gradient: first at the bound in front, then where a level is met, at last at the bound behind.
     for (var k = view.zero; k < MOST_LAYERS && seen.through > THINNEST_SHELL; k++) {
-        march.hit = false;
-        while k > 0u && !march.hit && !march_is_done(march) {
-            var jet: vec2f;
+        var met: Search;
+        while k > 0u && walk.k <= way.count && met.state != SEARCH_MET {
+            var value: f32;
             loop {
-                jet = field_ray(origin, d, march.t);
-                if !march_strides(march, jet, shells.family) {
+                value = field(origin + walk.k * stride);
+                if !walks_over(walk, value, way) {
                     break;
                 }
-                march = march_stride(march, jet, shells.family);
+                walk = walk_on(walk, value);
             }
-            march = march_on(march, jet, shells.family);
+            for (var stage = view.zero; stage < 2u && met.state != SEARCH_MET; stage++) {
+                met = search_part(stage, walk, value, way, shells.family);
+                while search_is_on(met) {
+                    met = search_on(met, field_ray(origin, d, met.t), way, shells.family);
+                }
+            }
+            if met.state == SEARCH_MET {
+                walk = walk_behind(walk, met, way, shells.family);
+            } else {
+                walk = walk_from(walk, value, shells.family);
+            }
         }
-        let last = k > 0u && !march.hit;
-        let t = select(select(march.hit_t, extent, last), 0.0, k == 0u);
+        let last = k > 0u && met.state != SEARCH_MET;
+        let t = select(select(met.t, extent, last), 0.0, k == 0u);
         let jet = field_grad(origin + t * d);
         if k > 0u && !last {
-            seen = seen_behind(seen, shell_layer(march.hit_level, march.touching, jet.xyz, d, shells));
-        } else {
-            seen = seen_bound(seen, jet, select(part.x, part.y, last), last, sight, shells, pixel);
+            seen = seen_behind(seen, shell_layer(met.level, met.touching, jet.xyz, d, shells));
+            continue;
         }
+        seen = seen_bound(seen, jet, select(part.x, part.y, last), last, sight, shells, pixel);
         if last {
             break;
         }
+        walk = walk_begun(jet.w, dot(jet.xyz, d), shells.family);
     }
     return seen;
 }

@@ -54,7 +54,7 @@ pub const SCENE: Scene = Scene {
         .trading(),
         SettingSpec::integer(
             "light_steps",
-            32.0,
+            40.0,
             (1.0, 4096.0),
             "the same on the way from the light, for each of those stretches",
         )

@@ -2,10 +2,10 @@
 
 use naga::{Expression, Handle, Literal, Span, Type, TypeInner};
 
-use super::fold;
 use super::function::{Fixed, Rewriter, Slot};
 use super::known::Known;
 use super::operands::each_operand;
+use super::{fold, functions};
 
 impl<'a> Rewriter<'a, '_> {
     /// Makes an expression anew, where a statement emits it.
@@ -166,7 +166,15 @@ impl<'a> Rewriter<'a, '_> {
                 for next in [arg1, arg2].into_iter().flatten() {
                     args.push(self.known(next)?);
                 }
-                fold::math(fun, &args)
+                functions::math(fun, &args)
+            }
+            Expression::As {
+                expr,
+                kind,
+                convert: None,
+            } => {
+                let known = fold::each(self.known(expr)?, &|x| fold::with_bits(x, kind))?;
+                self.pools.retyped(known)
             }
             Expression::As {
                 expr,

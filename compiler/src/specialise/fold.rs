@@ -1,10 +1,10 @@
-//! Operations on known values, where every machine has the same result.
+//! Operations on known values, in the arithmetic of the executor's IEEE 754 mode.
 //!
 //! Sums, products and quotients of floating-point numbers are folded where operands and result are zero or normal: those are
-//! correctly rounded or, quotients on some machines, off by a few units, as they are everywhere in a template. Transcendental
-//! functions are left to the machine.
+//! correctly rounded or, quotients on some machines, off by a few units, as they are everywhere in a template. Functions of
+//! numbers and of vectors are in `functions`.
 
-use naga::{BinaryOperator, Literal, MathFunction, RelationalFunction, ScalarKind, UnaryOperator};
+use naga::{BinaryOperator, Literal, RelationalFunction, ScalarKind, UnaryOperator};
 
 use super::known::Known;
 
@@ -47,12 +47,14 @@ pub fn compares(op: BinaryOperator) -> bool {
     )
 }
 
+/// A number that machines do not treat differently.
+pub(super) fn plain(x: f32) -> Option<f32> {
+    (x == 0.0 || x.is_normal()).then_some(x)
+}
+
 fn float(op: BinaryOperator, x: f32, y: f32) -> Option<Literal> {
-    let plain = |x: f32| x == 0.0 || x.is_normal();
-    if !plain(x) || !plain(y) {
-        return None;
-    }
-    let number = |z: f32| plain(z).then_some(Literal::F32(z));
+    let (x, y) = (plain(x)?, plain(y)?);
+    let number = |z: f32| plain(z).map(Literal::F32);
     match op {
         BinaryOperator::Add => number(x + y),
         BinaryOperator::Subtract => number(x - y),
@@ -116,48 +118,6 @@ fn compared<T: PartialOrd>(op: BinaryOperator, x: &T, y: &T) -> Option<Literal> 
     }))
 }
 
-/// A function of one to three known values.
-pub fn math(fun: MathFunction, args: &[&Known]) -> Option<Known> {
-    match *args {
-        [a] => each(a, &|x| rounded(fun, x)),
-        [a, b] => pairs(a, b, &|x, y| extreme(fun, x, y)),
-        [a, low, high] if fun == MathFunction::Clamp => {
-            let raised = pairs(a, low, &|x, y| extreme(MathFunction::Max, x, y))?;
-            pairs(&raised, high, &|x, y| extreme(MathFunction::Min, x, y))
-        }
-        _ => None,
-    }
-}
-
-fn rounded(fun: MathFunction, x: Literal) -> Option<Literal> {
-    match x {
-        Literal::F32(x) => Some(Literal::F32(match fun {
-            MathFunction::Abs => x.abs(),
-            MathFunction::Floor => x.floor(),
-            MathFunction::Ceil => x.ceil(),
-            MathFunction::Trunc => x.trunc(),
-            MathFunction::Round => x.round_ties_even(),
-            _ => return None,
-        })),
-        Literal::I32(x) if fun == MathFunction::Abs => Some(Literal::I32(x.wrapping_abs())),
-        _ => None,
-    }
-}
-
-fn extreme(fun: MathFunction, x: Literal, y: Literal) -> Option<Literal> {
-    match (fun, x, y) {
-        // of zeros of different sign machines take either
-        (_, Literal::F32(x), Literal::F32(y)) if x == y && x.to_bits() != y.to_bits() => None,
-        (MathFunction::Min, Literal::F32(x), Literal::F32(y)) => Some(Literal::F32(x.min(y))),
-        (MathFunction::Max, Literal::F32(x), Literal::F32(y)) => Some(Literal::F32(x.max(y))),
-        (MathFunction::Min, Literal::U32(x), Literal::U32(y)) => Some(Literal::U32(x.min(y))),
-        (MathFunction::Max, Literal::U32(x), Literal::U32(y)) => Some(Literal::U32(x.max(y))),
-        (MathFunction::Min, Literal::I32(x), Literal::I32(y)) => Some(Literal::I32(x.min(y))),
-        (MathFunction::Max, Literal::I32(x), Literal::I32(y)) => Some(Literal::I32(x.max(y))),
-        _ => None,
-    }
-}
-
 /// A question about a known value.
 pub fn relational(fun: RelationalFunction, a: &Known) -> Option<Known> {
     let components: Vec<&Known> = match a {
@@ -205,6 +165,22 @@ pub fn converted(x: Literal, kind: ScalarKind) -> Option<Literal> {
     })
 }
 
+/// The number of another format that has the same bits; `None` for floating-point numbers that machines treat differently.
+pub fn with_bits(x: Literal, kind: ScalarKind) -> Option<Literal> {
+    let bits = match x {
+        Literal::F32(x) => plain(x)?.to_bits(),
+        Literal::U32(x) => x,
+        Literal::I32(x) => x.cast_unsigned(),
+        _ => return None,
+    };
+    Some(match kind {
+        ScalarKind::Float => Literal::F32(plain(f32::from_bits(bits))?),
+        ScalarKind::Uint => Literal::U32(bits),
+        ScalarKind::Sint => Literal::I32(bits.cast_signed()),
+        _ => return None,
+    })
+}
+
 /// The function of each component. The type of a composite stays what it is: for those whose result has another, the caller
 /// sets it.
 pub fn each(a: &Known, f: &impl Fn(Literal) -> Option<Literal>) -> Option<Known> {
@@ -221,7 +197,11 @@ pub fn each(a: &Known, f: &impl Fn(Literal) -> Option<Literal>) -> Option<Known>
 }
 
 /// As [`each`], of two values.
-fn pairs(a: &Known, b: &Known, f: &impl Fn(Literal, Literal) -> Option<Literal>) -> Option<Known> {
+pub(super) fn pairs(
+    a: &Known,
+    b: &Known,
+    f: &impl Fn(Literal, Literal) -> Option<Literal>,
+) -> Option<Known> {
     match (a, b) {
         (_, Known::Scalar(y)) => each(a, &|x| f(x, *y)),
         (Known::Scalar(x), _) => each(b, &|y| f(*x, y)),

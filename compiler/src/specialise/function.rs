@@ -54,6 +54,8 @@ pub struct Rewriter<'a, 'm> {
     pub(super) fixed: &'a [Fixed<'a>],
     pub(super) pools: &'a mut Pools<'m>,
     calls: &'a mut Calls,
+    /// All functions of the module.
+    functions: &'a Arena<Function>,
     arguments: Vec<Option<Known>>,
     pub(super) expressions: Arena<Expression>,
     pub(super) slots: Vec<Slot>,
@@ -82,12 +84,14 @@ impl<'a, 'm> Rewriter<'a, 'm> {
         fixed: &'a [Fixed<'a>],
         pools: &'a mut Pools<'m>,
         calls: &'a mut Calls,
+        functions: &'a Arena<Function>,
     ) -> Self {
         Self {
             old,
             fixed,
             pools,
             calls,
+            functions,
             arguments,
             expressions: Arena::new(),
             slots: vec![Slot::default(); old.expressions.len()],
@@ -262,8 +266,10 @@ impl<'a, 'm> Rewriter<'a, 'm> {
                 arguments,
                 result,
             } => {
-                if let (Some(known), Some(result)) = (self.calls.value(*function), result) {
-                    self.slots[result.index()].known = Some(known.clone());
+                if let Some(result) = result
+                    && let Some(known) = self.called(*function, arguments)
+                {
+                    self.slots[result.index()].known = Some(known);
                     return Ok(false);
                 }
                 self.acts = true;
@@ -291,6 +297,35 @@ impl<'a, 'm> Rewriter<'a, 'm> {
             _ => return Err(Unforeseen),
         }
         Ok(false)
+    }
+
+    /// The value of a call, if the function always returns it, or returns it for these arguments, which are known.
+    fn called(
+        &mut self,
+        function: Handle<Function>,
+        arguments: &[Handle<Expression>],
+    ) -> Option<Known> {
+        if let Some(known) = self.calls.value(function) {
+            return Some(known.clone());
+        }
+        let known: Option<Vec<Known>> = arguments.iter().map(|&a| self.known(a).cloned()).collect();
+        let known = known?;
+        let key: Vec<Key> = known.iter().map(Known::key).collect();
+        if let Some(tried) = self.calls.tried(function, &key) {
+            return tried;
+        }
+        self.calls.begin_trial();
+        let trial = Rewriter::new(
+            &self.functions[function],
+            known.into_iter().map(Some).collect(),
+            self.fixed,
+            self.pools,
+            self.calls,
+            self.functions,
+        );
+        let value = trial.run().ok().and_then(|(_, value)| value);
+        self.calls.end_trial(function, key, value.clone());
+        value
     }
 
     fn store(&mut self, pointer: Handle<Expression>, value: Handle<Expression>, span: Span) {

@@ -11,6 +11,7 @@ mod calls;
 mod expressions;
 mod fold;
 mod function;
+mod functions;
 mod known;
 mod operands;
 mod pools;
@@ -24,7 +25,7 @@ use operands::is_foreseen;
 use pools::Pools;
 
 /// Rounds after which results of functions are no longer followed: each looks one call further up.
-const MAX_ROUNDS: usize = 6;
+const MAX_ROUNDS: usize = 24;
 
 /// What a uniform holds: its name, and its words, `None` for those that may change.
 pub type Words<'a> = (&'a str, &'a [Option<u32>]);
@@ -69,11 +70,12 @@ fn is_known_throughout(module: &Module) -> bool {
 fn round(module: &mut Module, fixed: &[Fixed], calls: &mut Calls) -> Option<bool> {
     let mut functions = std::mem::take(&mut module.functions);
     let mut entries = std::mem::take(&mut module.entry_points);
+    let all = functions.clone();
     let mut pools = Pools::new(module);
     let mut news = false;
     for entry in &mut entries {
         let unknown = vec![None; entry.function.arguments.len()];
-        let rewriter = Rewriter::new(&entry.function, unknown, fixed, &mut pools, calls);
+        let rewriter = Rewriter::new(&entry.function, unknown, fixed, &mut pools, calls, &all);
         entry.function = rewriter.run().ok()?.0;
     }
     // callees come before their callers in a module
@@ -84,7 +86,7 @@ fn round(module: &mut Module, fixed: &[Fixed], calls: &mut Calls) -> Option<bool
             continue;
         };
         let old = functions[handle].clone();
-        let rewriter = Rewriter::new(&old, arguments, fixed, &mut pools, calls);
+        let rewriter = Rewriter::new(&old, arguments, fixed, &mut pools, calls, &all);
         let (made, value) = rewriter.run().ok()?;
         functions[handle] = made;
         if let Some(value) = value {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
+use pullback_compiler::emit::{Target, write};
 use pullback_compiler::lower::Precision;
 use pullback_runtime::difference::Bitmap;
 use pullback_runtime::executor::Kind;
@@ -45,6 +46,9 @@ struct Options {
     /// With `--count`, the functions that take the most
     #[arg(long, default_value_t = 0)]
     functions: usize,
+    /// Writes our shaders in `fast` as WGSL, to be changed by hand and given to `--instead`
+    #[arg(long)]
+    text: bool,
     /// Where to write the pictures that are compared
     #[arg(long)]
     pictures: Option<PathBuf>,
@@ -76,6 +80,10 @@ fn run(options: &Options) -> Result<(), Error> {
     if options.count {
         return counts(options);
     }
+    if options.text {
+        texts(options);
+        return Ok(());
+    }
     let gpu = Gpu::open(&options.adapter.parse::<AdapterChoice>().unwrap_or_default())?;
     println!("{}\n", gpu.adapter());
     println!(
@@ -103,11 +111,23 @@ fn run(options: &Options) -> Result<(), Error> {
         println!("{}", row(twin.scene, twin.formula, &measured));
         for (name, picture) in &measured.pictures {
             if let Some(folder) = &options.pictures {
-                write(picture, &folder.join(format!("{}-{name}.png", twin.scene)))?;
+                write_picture(picture, &folder.join(format!("{}-{name}.png", twin.scene)))?;
             }
         }
     }
     Ok(())
+}
+
+/// Our shaders.
+fn texts(options: &Options) {
+    for twin in TWINS.iter().filter(|t| t.scene.contains(&options.only)) {
+        let still = twin.still(options.size, Precision::Fast);
+        let scene = still.shader(options.general);
+        match write(&scene.module, &scene.info, Target::Wgsl, twin.scene) {
+            Ok(text) => println!("{}", String::from_utf8_lossy(&text)),
+            Err(problem) => eprintln!("{}: {problem}", twin.scene),
+        }
+    }
 }
 
 /// Issue slots of a warp for each pixel, ours in `fast` and the twin's.
@@ -118,7 +138,7 @@ fn counts(options: &Options) -> Result<(), Error> {
     );
     let wanted = |t: &&Twin| t.scene.contains(&options.only);
     for twin in TWINS.iter().filter(wanted) {
-        let both = count(twin, options.size, Precision::Fast)?;
+        let both = count(twin, options.size, Precision::Fast, options.general)?;
         let ratio = both[0].total() / both[1].total();
         for (name, count) in ["fast", "twin"].iter().zip(&both) {
             println!("{}", count_row(twin.scene, ratio, name, count));
@@ -155,7 +175,7 @@ fn row(scene: &str, formula: &str, measured: &Measured) -> String {
     )
 }
 
-fn write(picture: &Bitmap, path: &std::path::Path) -> Result<(), Error> {
+fn write_picture(picture: &Bitmap, path: &std::path::Path) -> Result<(), Error> {
     let rgba: Vec<u8> = picture
         .pixels()
         .iter()

@@ -57,15 +57,21 @@ impl Count {
     }
 }
 
-/// What pixels of our picture cost in a precision, and of the twin's.
+/// What pixels of our picture cost in a precision, and of the twin's; `general`: by the shader that reads its settings.
 ///
 /// # Errors
 /// The executor's.
-pub fn count(twin: &Twin, size: Size, precision: Precision) -> Result<[Count; 2], Error> {
+pub fn count(
+    twin: &Twin,
+    size: Size,
+    precision: Precision,
+    general: bool,
+) -> Result<[Count; 2], Error> {
     let still = twin.still(size, precision);
+    let scene = still.shader(general);
     let (module, info) = twin.module();
     Ok([
-        counted(&still.scene.module, &still.scene.info, &still)?,
+        counted(&scene.module, &scene.info, &still)?,
         counted(&module, &info, &still)?,
     ])
 }
