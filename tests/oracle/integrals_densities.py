@@ -245,6 +245,22 @@ def products():
         D(t, m, speed=1) for t, m in pieces] + [D(t, ["x", "y"], speed=s) for t, s in tails]
 
 
+def fractions():
+    """A linear function beside a quadratic, and rational functions of one linear function."""
+    ball = ["x^2+y^2+z^2"]
+    cases = [
+        ("1/((x+13)*(x^2+y^2+z^2+0.5))", ball), ("1/((y+12)*(x^2+z^2+1))", ["x^2+z^2"]),
+        ("p/((x^2+y^2+z^2+0.1)*(2*z-25))", ball), ("1/((x+14)*(y^2+2))", ["y^2"]),
+        ("1/(x^4+5*x^2+4)", ["x^2"]), ("x^4/(x^4+5*x^2+4)", ["x^2"]), ("1/((x^2+1)*(x^2+4)*(x^2+9))", ["x^2"]),
+        ("(1-x^3)/((x+13)*(x^2+1))", ["x^2"]), ("(8*x^3+7)/((x+13)*(2*x+31)^3)", []),
+        ("1/((x+y+25)*(x+y+26)^2)", []), ("(2*x+3)/((x^2+1)^2*(x^2+4))", ["x^2"]),
+        ("1/((x-2*y)^4+1)", ["(x-2*y)^2"]), ("r/(z^6+1)", ["z^2"]),
+        ("x^3/(9+4*x^2)^(3/2)", ["x^2"]), ("(x^2+y)/(x^2+y^2+z^2+0.5)^(3/2)", ball),
+        ("sqrt(y+12)*log(y+12)", []), ("(x+14)^(3/2)*log(x+14)", []),
+    ]
+    return [D(t, m, speed=3) for t, m in cases]
+
+
 def rest():
     """Without closed form: for the nodes."""
     ball = ["x^2+y^2+z^2"]
@@ -273,5 +289,6 @@ def classes():
         "scenes": scenes(),
         "random": random_densities(),
         "products": products(),
+        "fractions": fractions(),
         "rest": rest(),
     }

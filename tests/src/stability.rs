@@ -210,16 +210,23 @@ fn movements(integral: &Formula, rays: &[Ray]) -> Result<Vec<f64>, String> {
 /// The integral, where it is a number that binary32 holds and so is f on the way.
 fn truth(class: &Class, ray: &Ray) -> Option<Truth> {
     let places = places(class, ray)?;
+    if meets_pole(class, ray) {
+        return None;
+    }
     let (mut greatest, mut low, mut high): (f64, f64, f64) =
         (0.0, f64::INFINITY, f64::NEG_INFINITY);
+    let mut has_pole = false;
     let exact = adaptive(&places, |t| {
+        if has_pole {
+            return f64::NAN;
+        }
         let f = (class.density)(ray.at(t));
         greatest = greatest.max(if f.is_nan() { f64::INFINITY } else { f.abs() });
         (low, high) = (low.min(f), high.max(f));
+        // f changes its sign there, or is beyond all that it is elsewhere
+        has_pole = class.has_poles && (low < 0.0 && high > 0.0 || greatest > 1e6);
         f
     });
-    // a pole: f changes its sign there, or is beyond all that it is elsewhere
-    let has_pole = class.has_poles && (low < 0.0 && high > 0.0 || greatest > 1e6);
     let is_number = greatest < LARGEST && exact.value.is_finite() && exact.size < LARGEST;
     let sign = if ray.numbers[6] > ray.numbers[7] {
         -1.0
@@ -230,6 +237,15 @@ fn truth(class: &Class, ray: &Ray) -> Option<Truth> {
         value: sign * exact.value,
         size: exact.size,
     })
+}
+
+/// Whether the ray goes through the centre, up to a rounding of f64, in the interval, and the density is infinite there.
+fn meets_pole(class: &Class, ray: &Ray) -> bool {
+    let n = ray.numbers;
+    let square: f64 = n[3..6].iter().map(|d| d * d).sum();
+    let foot = -(0..3).map(|c| n[c] * n[3 + c]).sum::<f64>() / square;
+    let is_inside = (n[6].min(n[7])..=n[6].max(n[7])).contains(&foot);
+    is_inside && (class.density)(ray.at(foot)).abs() > 1e14
 }
 
 /// Where panels begin and end: at the ends, around the place nearest to the centre and those where a coordinate is 0, at

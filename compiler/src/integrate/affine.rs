@@ -194,6 +194,44 @@ impl Integrator<'_> {
         if_less(self.g, w, limit, near, far)
     }
 
+    /// x and p of x^p log x, for a known p other than -1.
+    pub(super) fn power_by_log(&mut self, factors: &[Factor]) -> Option<(Id, f64)> {
+        let (&[Factor::Power(x, p), Factor::Log(y)] | &[Factor::Log(y), Factor::Power(x, p)]) =
+            factors
+        else {
+            return None;
+        };
+        let p = self.g.as_real(p).filter(|p| p.is_finite() && *p != -1.0)?;
+        (x == y && self.degree(x) == Some(1)).then_some((x, p))
+    }
+
+    /// ∫ x^p log x = [x^(p + 1) (log x - 1/(p + 1))]/((p + 1) β), nodes on short intervals.
+    pub(super) fn affine_power_by_log(&mut self, base: Id, p: f64) -> Id {
+        let x = self.affine(base);
+        let exponent = self.g.real(p);
+        let [power, log] = [Factor::Power(base, exponent), Factor::Log(base)]
+            .map(|factor| factor.expression(self.g));
+        let integrand = mul(self.g, power, log);
+        let floor = self.g.real(TINY);
+        let ends = x.ends.map(|end| {
+            // what is below 0 by a rounding is 0; NaN stays NaN
+            let rounding = scale(self.g, 1e-6, x.mid);
+            let size = call(self.g, Prim::Abs, end);
+            let least = self.g.apply(Prim::Max, &[size, floor]);
+            let inner = if_less(self.g, size, rounding, least, end);
+            let log = call(self.g, Prim::Log, inner);
+            let shift = self.g.real(1.0 / (p + 1.0));
+            let rest = self.g.sub(log, shift);
+            let raised = self.g.real(p + 1.0);
+            let power = Factor::Power(inner, raised).expression(self.g);
+            mul(self.g, power, rest)
+        });
+        let difference = self.g.sub(ends[1], ends[0]);
+        let rate = scale(self.g, p + 1.0, x.slope);
+        let far = self.g.div(difference, rate);
+        self.near_zero_or(x, integrand, 0, far)
+    }
+
     /// ∫ xᵏ log x = [xᵏ⁺¹ (log x - 1/(k + 1))]/((k + 1) β).
     fn log_moment(&mut self, x: Affine, k: u32) -> Id {
         let order = f64::from(k) + 1.0;

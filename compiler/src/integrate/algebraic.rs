@@ -72,7 +72,7 @@ impl Integrator<'_> {
                 let k = twice.unsigned_abs().saturating_sub(2);
                 Ok((self.equiangular(&bowl, polynomials, k), Rule::Equiangular))
             }
-            (-2.., _) => {
+            (-3, _) | (-2.., _) => {
                 let far = self.moments(&bowl, polynomials, degree, Moments::Power(twice));
                 let integrand =
                     self.beside(polynomials, super::term::Factor::Power(base, exponent));
@@ -369,6 +369,7 @@ impl Integrator<'_> {
     /// Fₖ = ∫ σᵏ q^(n/2): (n + 1 + k) Fₖ = [σᵏ⁻¹ q^(n/2 + 1)]/a - (k - 1) (D/a²) Fₖ₋₂.
     fn power_moments(&mut self, bowl: &Bowl, offsets: [Id; 2], n: i32, degree: u32) -> Vec<Id> {
         let first = match n {
+            -3 => self.reciprocal_cube(bowl),
             -2 => self.reciprocal(bowl),
             -1 => self.reciprocal_root(bowl),
             n if n % 2 == 0 => self.length_of_path(),
@@ -384,6 +385,15 @@ impl Integrator<'_> {
                 let log = call(self.g, Prim::Log, ratio);
                 let half = scale(self.g, 0.5, log);
                 self.g.div(half, bowl.q.a)
+            } else if k == 2 && n == -3 {
+                // σ² = (q - D/a)/a
+                let root = self.reciprocal_root(bowl);
+                let curved = mul(self.g, bowl.q.a, depth);
+                let rest = mul(self.g, curved, first);
+                let (zero, difference) = (self.g.real(0.0), self.g.sub(root, rest));
+                let is_flat = self.g.apply(Prim::Equal, &[curved, zero]);
+                let value = self.g.apply(Prim::Select, &[is_flat, root, difference]);
+                self.g.div(value, bowl.q.a)
             } else {
                 let ends = [0, 1].map(|i| {
                     let power = self.g.apply(Prim::PowInt(k - 1), &[offsets[i]]);

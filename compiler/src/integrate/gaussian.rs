@@ -45,10 +45,12 @@ impl Integrator<'_> {
         let negated = self.g.neg(exponent);
         let q = self.quadratic(negated);
         if self.g.as_real(q.a).is_some_and(|a| a < 0.0) || self.is_sum_of_squares(exponent) {
-            return Err(self.problem(
-                term.source,
-                Reason::NotElementary("Liouville: e to a growing square"),
-            ));
+            // beside some polynomials, as x e^(x²), it is
+            let reason = match degree {
+                0 => Reason::NotElementary("Liouville: e to a growing square"),
+                _ => Reason::NotFound,
+            };
+            return Err(self.problem(term.source, reason));
         }
         let integrand = term.moving(self.g);
         let (value, rule) = if degree == 0 {

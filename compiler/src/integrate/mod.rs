@@ -32,6 +32,7 @@ mod products;
 mod prove;
 mod quadratic;
 mod quadrature;
+mod rational;
 mod ridge;
 mod rule;
 mod series;
@@ -216,12 +217,18 @@ impl<'g> Integrator<'g> {
         let mut rest = self.g.real(0.0);
         let mut groups = Groups::default();
         for term in terms {
-            match self.term(&term) {
-                Ok(value) => {
-                    let value = self.guarded(&term, value);
-                    match term.product {
-                        Some(product) => groups.push(product, term.clone(), value),
-                        None => sum = add(self.g, sum, value),
+            let found = match self.term(&term) {
+                Ok(value) => Ok(vec![(term.clone(), value)]),
+                Err(problem) => self.by_fractions(&term).ok_or(problem),
+            };
+            match found {
+                Ok(values) => {
+                    for (part, value) in values {
+                        let value = self.guarded(&part, value);
+                        match part.product {
+                            Some(product) => groups.push(product, part, value),
+                            None => sum = add(self.g, sum, value),
+                        }
                     }
                 }
                 Err(problem) if self.otherwise == Otherwise::Refuse => return Err(problem),
@@ -353,6 +360,12 @@ impl<'g> Integrator<'g> {
                     return rule(self, term.source, &parts.polynomials, base);
                 }
                 _ => {}
+            }
+            if parts.polynomials.is_empty()
+                && let Some((base, exponent)) = self.power_by_log(&parts.rest)
+            {
+                let value = self.affine_power_by_log(base, exponent);
+                return Ok((value, Rule::AffineLog));
             }
             if parts.polynomials.is_empty()
                 && let Some(pair) = products::pair_of_powers(&parts.rest)

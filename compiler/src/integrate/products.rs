@@ -32,8 +32,60 @@ impl Integrator<'_> {
                     Rule::ReciprocalProduct,
                 ))
             }
+            (Some(1), Some(2)) if are_reciprocals => {
+                let integrand = term.moving(self.g);
+                Ok((
+                    self.affine_by_quadratic(integrand, p, q),
+                    Rule::ReciprocalProduct,
+                ))
+            }
+            (Some(2), Some(1)) if are_reciprocals => {
+                let integrand = term.moving(self.g);
+                Ok((
+                    self.affine_by_quadratic(integrand, q, p),
+                    Rule::ReciprocalProduct,
+                ))
+            }
             _ => Err(self.problem(term.source, Reason::NotFound)),
         }
+    }
+
+    /// ∫ 1/(x q) for x = α + β s, q = a s² + 2 b s + c, by partial fractions: with the resultant R = a α² - 2 b α β + c β²,
+    /// R I = β (log(x₁/x₀) - log(q₁/q₀)/2) + (a α - b β) ∫ 1/q. On intervals on which both change little nodes of the
+    /// product.
+    fn affine_by_quadratic(&mut self, integrand: Id, affine: Id, base: Id) -> Id {
+        let (x, bowl) = (self.affine(affine), self.bowl(base));
+        let near = self.gauss(integrand, NEAR_NODES);
+        let ratio = self.g.div(x.ends[1], x.ends[0]);
+        let fall = self.g.div(bowl.ends[0], bowl.ends[1]);
+        let turned = square(self.g, ratio);
+        let turned = self.g.mul(turned, fall);
+        let log = call(self.g, Prim::Log, turned);
+        let log = scale(self.g, 0.5, log);
+        let first = mul(self.g, x.slope, log);
+        let (left, right) = (mul(self.g, bowl.q.a, x.mid), mul(self.g, bowl.q.b, x.slope));
+        let bend = sub(self.g, left, right);
+        let angle = self.reciprocal(&bowl);
+        let second = mul(self.g, bend, angle);
+        let sum = add(self.g, first, second);
+        let resultant = self.resultant(base, &bowl.q, x);
+        let far = self.g.div(sum, resultant);
+        let half = self.path.half;
+        let way = mul(self.g, x.slope, half);
+        let [way, level] = [way, x.mid].map(|v| call(self.g, Prim::Abs, v));
+        let level = scale(self.g, 0.5, level);
+        let reach = call(self.g, Prim::Abs, bowl.reach);
+        let limit = scale(self.g, 0.25, bowl.q.c);
+        let short = [
+            self.g.apply(Prim::Less, &[way, level]),
+            self.g.apply(Prim::Less, &[reach, limit]),
+        ];
+        let is_short = self.g.apply(Prim::And, &short);
+        let value = self.g.apply(Prim::Select, &[is_short, near, far]);
+        // a zero of the linear one in the interval
+        let (zero, nan) = (self.g.real(0.0), self.g.real(f64::NAN));
+        let crossed = mul(self.g, x.ends[0], x.ends[1]);
+        if_less(self.g, zero, crossed, value, nan)
     }
 
     /// ∫ 1/(x y) = L log1p(z)/z/(x₀ y₁), z = L (x' y - y' x)/(x₀ y₁), where the bracket is constant.

@@ -210,6 +210,36 @@ impl Integrator<'_> {
         Some(add(g, out, part))
     }
 
+    /// a α² - 2 b α β + c β², β² times the value of a quadratic where α + β s is 0; of squares u² as (α u' - β u)².
+    pub(super) fn resultant(&mut self, id: Id, q: &Quadratic, x: Affine) -> Id {
+        let rate = square(self.g, x.slope);
+        if let Some(found) = self.squares(id).filter(|s| s.linear.is_empty()) {
+            let g = &mut *self.g;
+            let mut sum = g.real(0.0);
+            for (w, u) in &found.squares {
+                let (left, right) = (mul(g, x.mid, u.slope), mul(g, x.slope, u.mid));
+                let cross = sub(g, left, right);
+                let crossed = square(g, cross);
+                let part = mul(g, *w, crossed);
+                sum = add(g, sum, part);
+            }
+            for &(w, c) in &found.constant {
+                let level = mul(g, w, c);
+                let part = mul(g, level, rate);
+                sum = add(g, sum, part);
+            }
+            return sum;
+        }
+        let g = &mut *self.g;
+        let level = square(g, x.mid);
+        let (first, last) = (mul(g, q.a, level), mul(g, q.c, rate));
+        let mixed = mul(g, x.mid, x.slope);
+        let mixed = mul(g, q.b, mixed);
+        let mixed = scale(g, 2.0, mixed);
+        let sum = add(g, first, last);
+        sub(g, sum, mixed)
+    }
+
     /// Takes a polynomial apart into squares, what is linear, and constants.
     fn squares(&mut self, root: Id) -> Option<Squares> {
         let mut out = Squares::default();

@@ -158,7 +158,7 @@ pub static RULES: [Record; 25] = [
         name: "polynomial by power of a quadratic",
         equation: "Σ p⁽ᵏ⁾(s₀)/k! ∫ σᵏ q^r, (2r + 1 + k) Fₖ = [σᵏ⁻¹ q^(r+1)]/a - (k - 1) (D/a²) Fₖ₋₂; nodes of \
                    the product where |a| h² < q(m)/4",
-        bound: "exponents -1, -1/2, 1/2, 3/2 …, degree up to 12",
+        bound: "exponents -3/2, -1, -1/2, 1/2, 3/2 …, degree up to 12",
         source: "Gradshteyn and Ryzhik 2.263",
     },
     Record {
@@ -231,9 +231,11 @@ pub static RULES: [Record; 25] = [
     Record {
         rule: Rule::ReciprocalProduct,
         name: "product of reciprocals",
-        equation: "∫ 1/(xy) = L log1p(z)/(z x₀ y₁), z = L (x'y - y'x)/(x₀ y₁); ∫ 1/(q₁q₂) by partial fractions, and \
-                   ∫₀¹ ∫ 1/((1 - t) q₁ + t q₂)² dt by 8 nodes where the zeros of both are near one another",
-        bound: "two of degree 1, or two of degree 2 without zeros on the line; the nodes right to 1e-12",
+        equation: "∫ 1/(xy) = L log1p(z)/(z x₀ y₁), z = L (x'y - y'x)/(x₀ y₁); ∫ 1/(xq) and ∫ 1/(q₁q₂) by partial \
+                   fractions, and ∫₀¹ ∫ 1/((1 - t) q₁ + t q₂)² dt by 8 nodes where the zeros of both are near one \
+                   another",
+        bound: "two of degree 1 or 2, those of degree 2 without zeros on the line; the nodes right to 1e-12; rational \
+                functions of one linear function by as many fractions as they have",
         source: "Feynman, Physical Review 76, 1949, equation 14; elementary",
     },
 ];

@@ -11,6 +11,7 @@ mod nodes;
 mod peers;
 mod proof;
 mod ridge;
+mod rules;
 mod slopes;
 mod stability;
 mod textbook;
@@ -396,6 +397,11 @@ fn bells() {
 #[test]
 fn products() {
     check("products");
+}
+
+#[test]
+fn fractions() {
+    check("fractions");
 }
 
 #[test]

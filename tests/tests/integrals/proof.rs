@@ -5,7 +5,7 @@ use pullback_compiler::ir::{Graph, Id, Op, Prim};
 
 use super::{VALUES, densities, formula};
 
-const CLASSES: [&str; 11] = [
+pub(super) const CLASSES: [&str; 12] = [
     "polynomials",
     "waves",
     "exponentials",
@@ -16,6 +16,7 @@ const CLASSES: [&str; 11] = [
     "bells",
     "scenes",
     "products",
+    "fractions",
     "random",
 ];
 
@@ -44,7 +45,7 @@ fn integrals_are_proven() {
 }
 
 /// A copy of a graph in which one operation is another.
-fn with_other(graph: &Graph, root: Id, at: Id, other: Prim) -> Option<(Graph, Id)> {
+pub(super) fn with_other(graph: &Graph, root: Id, at: Id, other: Prim) -> Option<(Graph, Id)> {
     let mut out = Graph::new();
     let found = pullback_compiler::ir::transcribe(graph, &[root], &mut out, |to, node, args| {
         match node.op {
@@ -57,7 +58,7 @@ fn with_other(graph: &Graph, root: Id, at: Id, other: Prim) -> Option<(Graph, Id
 }
 
 /// Another operation with as many operands, where there is one that a slip of the pen would put there.
-fn slip(prim: Prim) -> Option<Prim> {
+pub(super) fn slip(prim: Prim) -> Option<Prim> {
     Some(match prim {
         Prim::Add => Prim::Sub,
         Prim::Sub => Prim::Add,
