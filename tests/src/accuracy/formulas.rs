@@ -126,7 +126,10 @@ const LIBRARY: &str = concat!(
     include_str!("../../data/functions/light.txt"),
 );
 
-const SPECIAL: &str = include_str!("../../data/functions/special.txt");
+const SPECIAL: &str = concat!(
+    include_str!("../../data/functions/special.txt"),
+    include_str!("../../data/functions/elliptic.txt"),
+);
 
 /// The formulas of the gallery.
 #[must_use]
