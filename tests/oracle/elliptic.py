@@ -7,6 +7,7 @@ Values and derivatives by mpmath with 60 digits: theta functions as their sums, 
 transformation. The scale is that of special.py: 16 u of the norm of the value, 64 u of that of a derivative, and what one unit in
 the last place of any argument moves, those that are constants in the formula, too. README.md beside this file has the format.
 """
+import functools
 import os
 import random
 import sys
@@ -25,17 +26,17 @@ def difference(f, x):
     return (8 * (f(x + h) - f(x - h)) - (f(x + 2 * h) - f(x - 2 * h))) / (12 * h)
 
 
-def lattice_function(g2, g3):
-    with mp.workdps(200):
-        e1, e2, e3 = mp.polyroots([4, 0, -g2, -g3], maxsteps=3000, extraprec=3000, error=False)
-    return e1, e2, e3
+@functools.lru_cache
+def lattice_roots(g2, g3):
+    with mp.workdps(130):
+        return mp.polyroots([4, 0, -g2, -g3], maxsteps=600, extraprec=500, error=False)
 
 
 def weierstrass(z, g2, g3):
     """DLMF 23.6.21"""
     if g2 == 0 and g3 == 0:
         return 1 / z**2
-    e1, e2, e3 = lattice_function(g2, g3)
+    e1, e2, e3 = lattice_roots(g2, g3)
     return e3 + (e1 - e3) / mp.ellipfun("sn", mp.sqrt(e1 - e3) * z, m=(e2 - e3) / (e1 - e3)) ** 2
 
 

@@ -12,6 +12,7 @@ mod complex;
 mod defined;
 mod derivative;
 mod elliptic;
+mod excess;
 mod exponential;
 mod exponential_integral;
 mod hyperbolic;
@@ -33,6 +34,7 @@ use naga::{BinaryOperator, MathFunction, UnaryOperator};
 use rustc_hash::FxHashMap;
 
 pub use bounds::{Bound, Bounds, Metric, bounds, bounds_of};
+pub use excess::excess;
 pub use integral::MAX_MOMENT;
 pub use library::{Direct, Meaning, meaning};
 pub use number::Number;

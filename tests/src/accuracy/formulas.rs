@@ -131,6 +131,7 @@ const LIBRARY: &str = concat!(
 const SPECIAL: &str = concat!(
     include_str!("../../data/functions/special.txt"),
     include_str!("../../data/functions/special_bessel.txt"),
+    include_str!("../../data/functions/elliptic.txt"),
 );
 
 /// The formulas of the gallery.
