@@ -21,6 +21,7 @@ pub mod mutate;
 #[cfg(feature = "gpu")]
 pub mod pictures;
 pub mod quadrature;
+pub mod same_module;
 #[cfg(feature = "gpu")]
 pub mod stability;
 #[cfg(feature = "gpu")]

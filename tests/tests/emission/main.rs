@@ -6,6 +6,8 @@ mod languages;
 mod names;
 mod plane;
 mod readable;
+mod same;
+mod validators;
 
 use naga::Module;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
