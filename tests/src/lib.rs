@@ -20,6 +20,7 @@ pub mod marches;
 pub mod mutate;
 #[cfg(feature = "gpu")]
 pub mod pictures;
+pub mod operations;
 pub mod quadrature;
 pub mod same_module;
 #[cfg(feature = "gpu")]

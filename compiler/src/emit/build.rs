@@ -2,8 +2,8 @@
 
 use naga::valid::ModuleInfo;
 use naga::{
-    AddressSpace, Expression, Function, FunctionArgument, FunctionResult, GlobalVariable, Handle,
-    Literal, Module, ResourceBinding, Span, StructMember, Type, TypeInner,
+    AddressSpace, Function, FunctionArgument, FunctionResult, GlobalVariable, Handle, Module,
+    ResourceBinding, Span, StructMember, Type, TypeInner,
 };
 use rustc_hash::FxHashMap;
 
@@ -197,7 +197,7 @@ impl Builder<'_> {
                 Leaves::Arguments { params, .. } => params,
                 _ => 0,
             };
-            fix(&mut function, first, self.program);
+            super::constants::fix(&mut function, first, self.program);
         }
         Ok(Built {
             what: part.what,
@@ -241,8 +241,10 @@ impl Builder<'_> {
         }
         let params = u32::try_from(arguments.list.len()).unwrap_or(u32::MAX);
         if uses.params {
+            let fixed = self.emission.params == ParamsAs::Constants;
             for (name, described) in self.params() {
-                arguments.add(name, types.real, described);
+                let fixed = if fixed { ", a constant here" } else { "" };
+                arguments.add(name, types.real, described + fixed);
             }
         }
         let (mut time, mut pixel) = (0, 0);
@@ -471,28 +473,3 @@ impl Builder<'_> {
 
 const TIME: &str = "seconds";
 const PIXEL: &str = "units of the plane per pixel";
-
-/// Puts the parameters' values in the place of the arguments that begin with `first`.
-fn fix(function: &mut Function, first: u32, program: &Program) {
-    let count = u32::try_from(program.params().len()).unwrap_or(0);
-    for (_, expression) in function.expressions.iter_mut() {
-        let Expression::FunctionArgument(k) = expression else {
-            continue;
-        };
-        if *k >= first + count {
-            *k -= count;
-        } else if *k >= first {
-            let param = &program.params()[(*k - first) as usize];
-            #[allow(
-                clippy::cast_possible_truncation,
-                reason = "a number as the shader has it"
-            )]
-            let value = param.default as f32;
-            *expression = Expression::Literal(Literal::F32(value));
-        }
-    }
-    let range = first as usize..(first + count) as usize;
-    if range.end <= function.arguments.len() {
-        function.arguments.drain(range);
-    }
-}

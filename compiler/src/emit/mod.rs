@@ -1,6 +1,7 @@
 //! Formulas and scenes as text of shading languages.
 
 mod build;
+mod constants;
 mod header;
 mod host;
 mod names;

@@ -8,6 +8,7 @@ mod plane;
 mod readable;
 mod same;
 mod validators;
+mod values;
 
 use naga::Module;
 use naga::valid::{Capabilities, ValidationFlags, Validator};

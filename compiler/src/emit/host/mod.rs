@@ -72,9 +72,8 @@ pub(super) fn emitted(
         let of = Kind::of(picture).ok_or_else(|| {
             demand("a whole shader is of a real function of two or three reals, or of a complex one")
         })?;
-        if emission.params == ParamsAs::Uniform {
-            emission.params = ParamsAs::Arguments;
-        }
+        // the shader declares them, and hands them on
+        emission.params = ParamsAs::Arguments;
         emission.parts = vec![of.part()];
         kind = Some(of);
     }
@@ -230,6 +229,9 @@ impl Hosted<'_> {
                 param.default, param.lo, param.hi
             ));
         }
+        if !self.params().is_empty() {
+            out.push('\n');
+        }
         out.push_str(&self.printed.text());
         out.push('\n');
         out.push_str(&self.filled(template, kind, "iTime"));
@@ -262,6 +264,9 @@ impl Hosted<'_> {
                 "uniform float {name}{range} = {:?};\n",
                 param.default
             ));
+        }
+        if !self.params().is_empty() {
+            out.push('\n');
         }
         out.push_str(&self.printed.text());
         out.push('\n');

@@ -12,8 +12,9 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec3 o = -far * forward;
     vec3 d = normalize(2.2 * forward + at.x * right + at.y * up);
     // where the ray is in the box
-    vec3 to_walls = half_size / max(abs(d), vec3(1e-20));
-    vec3 to_middle = -o * sign(d) / max(abs(d), vec3(1e-20));
+    vec3 e = vec3(d.x == 0.0 ? 1e-20 : d.x, d.y == 0.0 ? 1e-20 : d.y, d.z == 0.0 ? 1e-20 : d.z);
+    vec3 to_walls = half_size / abs(e);
+    vec3 to_middle = -o / e;
     vec3 enter = to_middle - to_walls;
     vec3 leave = to_middle + to_walls;
     float a = max(max(enter.x, enter.y), max(enter.z, 0.0));
