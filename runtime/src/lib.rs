@@ -37,6 +37,7 @@ pub mod render;
 pub mod rows;
 pub mod shader;
 pub mod trace;
+pub mod validators;
 
 mod buffers;
 mod clock;

@@ -18,9 +18,11 @@ pub mod loops;
 #[cfg(feature = "gpu")]
 pub mod marches;
 pub mod mutate;
+pub mod operations;
 #[cfg(feature = "gpu")]
 pub mod pictures;
 pub mod quadrature;
+pub mod same_module;
 pub mod special;
 #[cfg(feature = "gpu")]
 pub mod stability;

@@ -1,40 +1,28 @@
 //! Formulas and scenes as text of shading languages.
 
-mod function;
+mod build;
+mod constants;
+mod header;
+mod host;
 mod names;
+mod parts;
+pub mod print;
+mod request;
+mod restore;
 mod text;
 
+pub use request::{Emission, EmitWhat, Emitted, EmittedFunction, ParamsAs};
+pub use restore::restore_operators;
 pub use text::{Target, write};
 
+use naga::Module;
 use pullback_grammar::Diagnostic;
-use smallvec::smallvec;
 
-use crate::formula::Formula;
-use crate::integrate::{Otherwise, field_integral};
-use crate::ir::Prim;
 use crate::lower::{Format, LowerError, Precision, Tier};
 use crate::module::{EvalModule, Evaluator, ModuleError, SceneModule, What};
 use crate::program::{Picture, Program, SettingValue};
-
-/// What is emitted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum EmitWhat {
-    /// A function for the value.
-    Value,
-    /// A function for the partial derivatives and the value.
-    Gradient,
-    /// A function for the value and the derivative by one variable.
-    Derivative,
-    /// A function for the integral along a ray o + t d from t = a to t = b.
-    Integral,
-    /// A function for the part of the light that comes through f as an extinction, exp(-τ) with that integral τ.
-    Transmittance,
-    /// A function for the part that does not, 1 - exp(-τ) without cancellation: times a colour, what a medium emits that glows as
-    /// it absorbs.
-    Opacity,
-    /// The whole scene.
-    Scene,
-}
+use build::BuiltModule;
+use parts::Part;
 
 impl Program {
     fn picture(&self, index: usize) -> Result<&Picture, Vec<Diagnostic>> {
@@ -112,7 +100,7 @@ impl Program {
         self.with_picture(picture, |p| Evaluator::new(&p.formula, what))
     }
 
-    /// Text (or words, for SPIR-V) of the formula or its scene in a shading language.
+    /// Text (or words, for SPIR-V) of one function of the formula, or of its scene, in a shading language.
     ///
     /// # Errors
     /// What the formula lacks, at its place, or what the shading language cannot say.
@@ -123,87 +111,107 @@ impl Program {
         target: Target,
         precision: Precision,
     ) -> Result<Vec<u8>, Vec<Diagnostic>> {
-        self.with_picture(picture, |p| {
-            can_say(target, precision)?;
-            let (mut module, info, header) = match what {
-                EmitWhat::Integral | EmitWhat::Transmittance | EmitWhat::Opacity => {
-                    self.integral_function(p, what, precision, target)?
-                }
-                EmitWhat::Scene => {
-                    let scene = SceneModule::new(p, precision)?;
-                    (
-                        scene.module,
-                        scene.info,
-                        format!("the scene `{}`", p.scene.name),
-                    )
-                }
-                EmitWhat::Value => {
-                    function::standalone(self, &p.formula, What::Value, precision, target)?
-                }
-                EmitWhat::Gradient => {
-                    function::standalone(self, &p.formula, What::Gradient, precision, target)?
-                }
-                EmitWhat::Derivative => {
-                    function::standalone(self, &p.formula, What::Derivative, precision, target)?
-                }
-            };
-            let name = &p.formula.name;
-            names::keep_names(&mut module, &function::generated_names(name));
-            write(&module, &info, target, &header).map_err(ModuleError::Invalid)
+        let emission = Emission {
+            picture,
+            ..Emission::new(what, target).precision(precision)
+        };
+        Ok(self.emit_all(&emission)?.bytes)
+    }
+
+    /// Functions of the formula in one file, with the library functions that they call, or the whole scene.
+    ///
+    /// # Errors
+    /// What the formula lacks, at its place, or what the language cannot say.
+    pub fn emit_all(&self, emission: &Emission) -> Result<Emitted, Vec<Diagnostic>> {
+        self.with_picture(emission.picture, |picture| self.emitted(picture, emission))
+    }
+
+    /// The module that [`Self::emit_all`] prints, with the names that its functions are to have.
+    ///
+    /// # Errors
+    /// As [`Self::emit_all`].
+    pub fn emitted_module(&self, emission: &Emission) -> Result<Module, Vec<Diagnostic>> {
+        self.with_picture(emission.picture, |picture| {
+            let (_, built) = self.built(picture, emission)?;
+            Ok(built.module)
         })
     }
 
-    /// A function for the integral of a picture's formula along a ray or what hangs on it, and what is said of it.
-    fn integral_function(
+    fn built(
         &self,
         picture: &Picture,
-        what: EmitWhat,
-        precision: Precision,
-        target: Target,
-    ) -> Result<(naga::Module, naga::valid::ModuleInfo, String), ModuleError> {
-        let formula = &picture.formula;
-        let made =
-            field_integral(formula, Otherwise::Quadrature).map_err(LowerError::NoIntegral)?;
-        let is_closed = made.integral.numerical.is_empty();
-        let integral = of_depth(made.into_formula(formula), formula, what);
-        let (module, info, header) =
-            function::standalone(self, &integral, What::Value, precision, target)?;
-        let of = match what {
-            EmitWhat::Transmittance => "transmittance exp(-τ) of the integral τ",
-            EmitWhat::Opacity => "opacity 1 - exp(-τ) of the integral τ",
-            _ => "integral",
-        };
-        let kind = if is_closed {
-            "in closed form"
-        } else {
-            "in part by quadrature"
-        };
-        Ok((
-            module,
-            info,
-            format!("{header}, the {of} along o + t d from a to b, {kind}"),
-        ))
+        emission: &Emission,
+    ) -> Result<(Vec<Part>, BuiltModule), ModuleError> {
+        let wanted = emission.parts.iter().copied();
+        let parts: Vec<Part> = wanted
+            .map(|what| parts::part(picture, what))
+            .collect::<Result<_, _>>()?;
+        let built = build::build(self, &parts, emission)?;
+        Ok((parts, built))
+    }
+
+    fn emitted(&self, picture: &Picture, emission: &Emission) -> Result<Emitted, ModuleError> {
+        can_say(emission.target, emission.precision)?;
+        if let Some(problem) = misnamed(emission) {
+            return Err(demand(problem));
+        }
+        if emission.parts.contains(&EmitWhat::Scene) {
+            return scene(picture, emission);
+        }
+        if emission.target.is_host() {
+            return host::emitted(self, picture, emission);
+        }
+        let (parts, built) = self.built(picture, emission)?;
+        text::functions(emission, &parts, &built)
     }
 }
 
-/// An optical depth, or the transmittance or the opacity of it.
-fn of_depth(mut depth: Formula, of: &Formula, what: EmitWhat) -> Formula {
-    let &[value] = depth.value.as_slice() else {
-        return depth;
+/// What is wrong with the names that were asked for.
+fn misnamed(emission: &Emission) -> Option<String> {
+    let is_name = |name: &str| {
+        let latin = crate::lower::identifier(name);
+        latin.starts_with(|c: char| c.is_ascii_alphabetic())
+            && latin.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
     };
-    let g = &mut depth.graph;
-    let turned = g.neg(value);
-    let (value, name) = match what {
-        EmitWhat::Transmittance => (g.apply(Prim::Exp, &[turned]), "transmittance"),
-        EmitWhat::Opacity => {
-            let change = g.apply(Prim::Expm1, &[turned]);
-            (g.neg(change), "opacity")
-        }
-        _ => return depth,
-    };
-    depth.value = smallvec![value];
-    depth.name = format!("{}_{name}", of.name);
-    depth
+    let names = emission.renamed.iter().map(|(_, to)| to);
+    let wrong = emission.name.iter().chain(names).find(|n| !is_name(n))?;
+    Some(format!("`{wrong}` is no name"))
+}
+
+fn demand(message: impl Into<String>) -> ModuleError {
+    ModuleError::Lower(LowerError::Demand(message.into()))
+}
+
+/// A whole scene, by naga's writers: it has entry points and buffers.
+fn scene(picture: &Picture, emission: &Emission) -> Result<Emitted, ModuleError> {
+    if emission.parts.len() > 1 {
+        return Err(demand(
+            "a scene is emitted alone, without further functions",
+        ));
+    }
+    if !Target::LANGUAGES.contains(&emission.target) {
+        return Err(demand(format!(
+            "a scene is written in WGSL, GLSL, HLSL, MSL or SPIR-V, not for `{}`",
+            emission.target.name()
+        )));
+    }
+    let mut scene = SceneModule::new(picture, emission.precision)?;
+    let mut head = format!("the scene `{}`", picture.scene.name);
+    if let Some(samples) = emission.fixed_samples {
+        scene = scene.specialised(&picture.settings, samples)?;
+        head.push_str(&format!(
+            " for its settings and {samples} samples per axis, which are constants"
+        ));
+    }
+    let formula = crate::lower::identifier(&picture.formula.name);
+    let mut ours: Vec<String> = crate::module::DEMANDS.map(str::to_owned).into();
+    ours.push(formula);
+    names::keep_names(&mut scene.module, &ours);
+    let bytes = write(&scene.module, &scene.info, emission.target, &head);
+    Ok(Emitted {
+        bytes: bytes.map_err(ModuleError::Invalid)?,
+        functions: Vec::new(),
+    })
 }
 
 /// Fails where a shading language cannot say what a tier needs: 64-bit numbers, and their bits as integers.
@@ -211,8 +219,7 @@ fn can_say(target: Target, precision: Precision) -> Result<(), ModuleError> {
     if precision.format() != Format::Double || matches!(target, Target::Wgsl | Target::Spirv) {
         return Ok(());
     }
-    Err(ModuleError::Lower(LowerError::Demand(
-        "`double` is written as WGSL (with the f64 and u64 of wgpu) and as SPIR-V only; `extended` as any target"
-            .to_owned(),
-    )))
+    Err(demand(
+        "`double` is written as WGSL (with the f64 and u64 of wgpu) and as SPIR-V only; `extended` as any target",
+    ))
 }

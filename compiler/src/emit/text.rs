@@ -1,15 +1,26 @@
-//! Writing modules with naga's writers.
+//! Targets, and how modules are written for them: functions by our own printer, scenes by naga's writers.
+
+use std::collections::BTreeMap;
 
 use naga::back::{glsl, hlsl, msl, spv, wgsl};
 use naga::valid::ModuleInfo;
-use naga::{Module, ShaderStage};
+use naga::{Function, Handle, Module, ShaderStage};
 
-/// A shading language.
+use super::build::BuiltModule;
+use super::header::header;
+use super::parts::Part;
+use super::print::{Dialect, Printed, comment, print};
+use super::request::{Emission, Emitted, EmittedFunction};
+use crate::lower::{Format, LowerError};
+use crate::module::ModuleError;
+
+/// A language, or a program that takes code in one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Target {
     /// WGSL.
     Wgsl,
-    /// GLSL 4.50; of a scene, its fragment stage.
+    /// Functions for GLSL 3.30, GLSL ES 3.00 and later ones; of a scene, its fragment stage in GLSL 4.50.
     Glsl,
     /// HLSL, shader model 5.1.
     Hlsl,
@@ -17,11 +28,37 @@ pub enum Target {
     Msl,
     /// SPIR-V 1.3, little-endian words.
     Spirv,
+    /// C11.
+    C,
+    /// WGSL for Bevy and others with naga_oil: a module to `#import`.
+    Bevy,
+    /// An image shader for shadertoy.com.
+    Shadertoy,
+    /// A shader for Godot 4: of the canvas for formulas of the plane, spatial for densities in space.
+    Godot,
+    /// A JavaScript module with a GLSL chunk for three.js.
+    Three,
+    /// A JavaScript module with node functions for the WebGPU renderer of three.js.
+    Tsl,
 }
 
 impl Target {
     /// Every target.
-    pub const ALL: [Self; 5] = [Self::Wgsl, Self::Glsl, Self::Hlsl, Self::Msl, Self::Spirv];
+    pub const ALL: [Self; 11] = [
+        Self::Wgsl,
+        Self::Glsl,
+        Self::Hlsl,
+        Self::Msl,
+        Self::Spirv,
+        Self::C,
+        Self::Bevy,
+        Self::Shadertoy,
+        Self::Godot,
+        Self::Three,
+        Self::Tsl,
+    ];
+    /// The shading languages, in which whole scenes can be written.
+    pub const LANGUAGES: [Self; 5] = [Self::Wgsl, Self::Glsl, Self::Hlsl, Self::Msl, Self::Spirv];
 
     /// Its name on the command line.
     #[must_use]
@@ -32,8 +69,116 @@ impl Target {
             Self::Hlsl => "hlsl",
             Self::Msl => "msl",
             Self::Spirv => "spirv",
+            Self::C => "c",
+            Self::Bevy => "bevy",
+            Self::Shadertoy => "shadertoy",
+            Self::Godot => "godot",
+            Self::Three => "three",
+            Self::Tsl => "tsl",
         }
     }
+
+    /// Whether it is a program with files of its own kind, rather than a language.
+    pub(super) fn is_host(self) -> bool {
+        matches!(
+            self,
+            Self::Bevy | Self::Shadertoy | Self::Godot | Self::Three | Self::Tsl
+        )
+    }
+
+    /// The grammar of its texts; SPIR-V has none.
+    pub(super) fn dialect(self) -> Dialect {
+        match self {
+            Self::Wgsl | Self::Bevy | Self::Tsl | Self::Spirv => Dialect::Wgsl,
+            Self::Glsl | Self::Shadertoy | Self::Three => Dialect::Glsl,
+            Self::Godot => Dialect::Godot,
+            Self::Hlsl => Dialect::Hlsl,
+            Self::Msl => Dialect::Msl,
+            Self::C => Dialect::C,
+        }
+    }
+}
+
+/// The functions of a module as text, with what is said of them in front.
+pub(super) fn functions(
+    emission: &Emission,
+    parts: &[Part],
+    built: &BuiltModule,
+) -> Result<Emitted, ModuleError> {
+    let target = emission.target;
+    if emission.precision.format() == Format::Double {
+        // the readable printer writes single precision only
+        let head = format!("functions of `{}` in 64 bits", parts[0].formula.name);
+        let bytes = write(&built.module, &built.info, target, &head);
+        return Ok(Emitted {
+            bytes: bytes.map_err(ModuleError::Invalid)?,
+            functions: listed(built, &BTreeMap::new()),
+        });
+    }
+    let printed = printed(built, target.dialect(), emission)?;
+    let declared: BTreeMap<_, _> = printed
+        .functions
+        .iter()
+        .map(|f| (f.handle, (f.name.clone(), f.signature.clone())))
+        .collect();
+    let functions = listed(built, &declared);
+    if target == Target::Spirv {
+        let bytes = write(&built.module, &built.info, target, "");
+        return Ok(Emitted {
+            bytes: bytes.map_err(ModuleError::Invalid)?,
+            functions,
+        });
+    }
+    let signatures: Vec<String> = functions.iter().map(|f| f.signature.clone()).collect();
+    let head = header(emission, parts, &built.functions, &signatures);
+    let mut text = comment(&head, "//");
+    text.push_str(match target {
+        Target::C => "\n#include <math.h>\n#include <stdbool.h>\n#include <stdint.h>\n",
+        Target::Msl => "\n#include <metal_stdlib>\nusing namespace metal;\n",
+        _ => "",
+    });
+    text.push('\n');
+    text.push_str(&printed.text());
+    Ok(Emitted {
+        bytes: text.into_bytes(),
+        functions,
+    })
+}
+
+/// The functions in a dialect.
+pub(super) fn printed(
+    built: &BuiltModule,
+    dialect: Dialect,
+    emission: &Emission,
+) -> Result<Printed, ModuleError> {
+    let wanted: Vec<_> = built.functions.iter().map(|f| f.handle).collect();
+    print(&built.module, &built.info, dialect, &wanted).map_err(|problem| {
+        ModuleError::Lower(LowerError::Demand(format!(
+            "`{}` has no form for {problem}",
+            emission.target.name()
+        )))
+    })
+}
+
+/// What is told of the functions.
+pub(super) fn listed(
+    built: &BuiltModule,
+    declared: &BTreeMap<Handle<Function>, (String, String)>,
+) -> Vec<EmittedFunction> {
+    let all = built.functions.iter();
+    all.map(|function| {
+        let known = declared.get(&function.handle).cloned();
+        let own = &built.module.functions[function.handle];
+        let (name, signature) =
+            known.unwrap_or_else(|| (own.name.clone().unwrap_or_default(), String::new()));
+        EmittedFunction {
+            what: function.what,
+            name,
+            signature,
+            returns: function.returns.clone(),
+        }
+    })
+    .collect()
 }
 
 /// Writes a module; texts begin with a comment that says what they hold.
@@ -57,6 +202,7 @@ pub fn write(
         Target::Hlsl => header + &write_hlsl(module, info)?,
         Target::Msl => header + &write_msl(module, info)?,
         Target::Spirv => return write_spirv(module, info),
+        other => return Err(format!("`{}` has no whole scenes", other.name())),
     };
     Ok(text.into_bytes())
 }

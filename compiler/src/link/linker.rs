@@ -330,7 +330,7 @@ fn is_zero(function: &Function, value: Handle<naga::Expression>) -> bool {
 }
 
 /// Every callee in a block, in order.
-fn calls(block: &naga::Block) -> Vec<Handle<Function>> {
+pub(crate) fn calls(block: &naga::Block) -> Vec<Handle<Function>> {
     let mut out = Vec::new();
     let mut stack: Vec<&naga::Block> = vec![block];
     while let Some(block) = stack.pop() {

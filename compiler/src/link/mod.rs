@@ -8,5 +8,6 @@ mod import;
 mod linker;
 mod sources;
 
+pub(crate) use linker::calls;
 pub use linker::{LinkError, Linker, Provider, is_stub};
 pub use sources::{Sources, entry_module, math_module, number_module, parse_wgsl, shared_module};

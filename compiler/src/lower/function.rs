@@ -28,6 +28,15 @@ pub enum Argument {
     OffsetPoint(u32),
 }
 
+/// Where a structure of parameters is.
+#[derive(Clone, Copy, Debug)]
+pub enum Base {
+    /// A uniform of the module.
+    Uniform(Handle<GlobalVariable>),
+    /// An argument of the function.
+    Argument(u32),
+}
+
 /// Where parameters, clock and footprint come from.
 #[derive(Clone, Copy, Debug)]
 pub enum Leaves {
@@ -40,6 +49,15 @@ pub enum Leaves {
     },
     /// The uniform `wide` of the wide libraries, where each number is two words.
     Words(Handle<GlobalVariable>),
+    /// Members of a structure: the k-th parameter is the k-th.
+    Structure {
+        /// What holds it.
+        base: Base,
+        /// The member that is the clock.
+        time: u32,
+        /// The member that is the footprint.
+        pixel: u32,
+    },
     /// Further arguments of the function, found by their names.
     Arguments {
         /// Index of the argument of the first parameter; the k-th parameter is the k-th after it.

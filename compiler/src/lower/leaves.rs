@@ -3,7 +3,7 @@
 use naga::{BinaryOperator, Expression, GlobalVariable, Handle, SwizzleComponent, VectorSize};
 
 use super::LowerError;
-use super::function::{Argument, Leaves, Lowering};
+use super::function::{Argument, Base, Leaves, Lowering};
 use crate::ir::Ty;
 
 type Value = Handle<Expression>;
@@ -69,7 +69,9 @@ impl Lowering<'_, '_, '_> {
                 let center = self.body.emit(Expression::Load { pointer });
                 Ok(self.binary(BinaryOperator::Add, center, offset))
             }
-            Leaves::Arguments { .. } => Err(LowerError::NoForm("a view")),
+            Leaves::Arguments { .. } | Leaves::Structure { .. } => {
+                Err(LowerError::NoForm("a view"))
+            }
         }
     }
 
@@ -92,6 +94,7 @@ impl Lowering<'_, '_, '_> {
                 let value = self.argument(params + k)?;
                 self.widened(value)
             }
+            Leaves::Structure { base, .. } => self.member_of(base, k),
             Leaves::Words(wide) => self.word_number(wide, "params", k),
             Leaves::Uniforms { params, .. } => {
                 let base = self.body.declare(Expression::GlobalVariable(params));
@@ -109,6 +112,9 @@ impl Lowering<'_, '_, '_> {
                 let value = self.argument(if name == "time" { time } else { pixel })?;
                 self.widened(value)
             }
+            Leaves::Structure { base, time, pixel } => {
+                self.member_of(base, if name == "time" { time } else { pixel })
+            }
             Leaves::Words(wide) => {
                 self.word_number(wide, "clock", if name == "time" { 0 } else { 1 })
             }
@@ -117,6 +123,22 @@ impl Lowering<'_, '_, '_> {
                 Ok(self.body.emit(Expression::Load { pointer }))
             }
         }
+    }
+
+    /// A member of a structure of single-precision numbers.
+    fn member_of(&mut self, base: Base, member: u32) -> Result<Value, LowerError> {
+        let value = match base {
+            Base::Uniform(global) => {
+                let base = self.body.declare(Expression::GlobalVariable(global));
+                let pointer = self.part(base, member);
+                self.body.emit(Expression::Load { pointer })
+            }
+            Base::Argument(k) => {
+                let base = self.argument(k)?;
+                self.part(base, member)
+            }
+        };
+        self.widened(value)
     }
 
     /// The k-th number of a member of `wide`: two to a `vec4<u32>`, in a vector or an array of them.

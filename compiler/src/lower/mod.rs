@@ -16,7 +16,7 @@ mod types;
 
 pub use exactness::Exactness;
 pub use format::Format;
-pub use function::{Argument, Interface, Leaves, Output, lower};
+pub use function::{Argument, Base, Interface, Leaves, Output, lower};
 pub use identifier::identifier;
 pub use tier::Tier;
 pub use types::{NagaTypes, NumberTypes};

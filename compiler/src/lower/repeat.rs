@@ -15,7 +15,6 @@ impl Lowering<'_, '_, '_> {
         let count = self.count(plan)?;
         let done = self.body.variable("steps".to_owned(), self.types.real);
         let zero = self.body.literal(0.0);
-        self.body.store(done, zero);
         let mut variables = Vec::new();
         for state in &it.states {
             let ty = match self.graph.ty(state.leaf) {
@@ -28,6 +27,8 @@ impl Lowering<'_, '_, '_> {
             self.body.store(variable, init);
             variables.push(variable);
         }
+        // last before the loop, so that the text can have it in the loop's head
+        self.body.store(done, zero);
 
         self.body.open();
         let now = self.body.load(done);

@@ -225,6 +225,20 @@ impl Table {
     /// # Errors
     /// The machine cannot evaluate it; in words.
     pub fn measure(&self, machine: &Machine) -> Result<Factors, String> {
+        self.measure_by(machine.format(), &mut |formula, what, points| {
+            machine.run(formula, what, points)
+        })
+    }
+
+    /// [`Self::measure`] for whatever evaluates a formula, in this format.
+    ///
+    /// # Errors
+    /// It cannot be evaluated; in words.
+    pub fn measure_by(
+        &self,
+        format: Format,
+        run: &mut dyn FnMut(&Formula, What, &[Point]) -> Result<Vec<Vec<f64>>, String>,
+    ) -> Result<Factors, String> {
         let (formula, params) = self.formula();
         let arity = self
             .place("f")
@@ -244,11 +258,11 @@ impl Table {
         } else {
             What::Gradient
         };
-        let values = machine.run(&formula, What::Value, &points)?;
-        let slopes = machine.run(&formula, demand, &points)?;
+        let values = run(&formula, What::Value, &points)?;
+        let slopes = run(&formula, demand, &points)?;
         let mut factors = Factors::default();
         for ((row, value), slope) in self.rows.iter().zip(&values).zip(&slopes) {
-            self.judge(row, value, slope, arity, machine.format(), &mut factors);
+            self.judge(row, value, slope, arity, format, &mut factors);
         }
         Ok(factors)
     }

@@ -6,6 +6,9 @@ mod languages;
 mod names;
 mod plane;
 mod readable;
+mod same;
+mod validators;
+mod values;
 
 use naga::Module;
 use naga::valid::{Capabilities, ValidationFlags, Validator};

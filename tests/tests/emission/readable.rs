@@ -2,12 +2,10 @@
 
 use naga::ShaderStage;
 use naga::valid::Capabilities;
-use pullback_compiler::ir::Ty;
 use pullback_compiler::lower::Precision;
-use pullback_compiler::types::Type;
 use pullback_compiler::{EmitWhat, Program, Target};
 
-use crate::{emit, validate};
+use crate::validate;
 
 /// Reads an emitted text back where there is a reader, and checks its shape where there is none.
 pub fn check_readable(name: &str, what: EmitWhat, target: Target, bytes: &[u8]) {
@@ -28,13 +26,18 @@ pub fn check_readable(name: &str, what: EmitWhat, target: Target, bytes: &[u8]) 
             validate(&name, &module, Capabilities::default());
         }
         Target::Glsl => {
-            assert!(text.starts_with("#version"), "{name}");
+            let whole = if text.starts_with("#version") {
+                text.to_owned()
+            } else {
+                // functions for other programs: with an entry point around them
+                format!("#version 450 core\n{text}\nvoid main() {{}}\n")
+            };
+            let options = naga::front::glsl::Options::from(ShaderStage::Fragment);
             let module = naga::front::glsl::Frontend::default()
-                .parse(
-                    &naga::front::glsl::Options::from(ShaderStage::Fragment),
-                    text,
-                )
-                .unwrap_or_else(|error| panic!("{name}: {}\n{text}", error.emit_to_string(text)));
+                .parse(&options, &whole)
+                .unwrap_or_else(|error| {
+                    panic!("{name}: {}\n{whole}", error.emit_to_string(&whole))
+                });
             validate(&name, &module, Capabilities::all());
         }
         _ => check_shape(&name, text),
@@ -85,30 +88,35 @@ fn check_shape(name: &str, text: &str) {
     assert!(open.is_empty(), "{name}");
 }
 
-/// Which forms a program has besides value and scene.
-fn forms(program: &Program) -> Vec<EmitWhat> {
-    let formula = &program.pictures()[0].formula;
-    let scalars = formula.scalars();
-    let mut out = vec![EmitWhat::Value, EmitWhat::Scene];
-    if !scalars.contains(&Ty::Complex) && formula.ty == Type::Real && !scalars.is_empty() {
-        out.push(EmitWhat::Gradient);
-    }
-    if scalars.len() == 1 && (scalars[0] == Ty::Complex || formula.ty == Type::Real) {
-        out.push(EmitWhat::Derivative);
-    }
-    out
-}
-
-/// Emits all that a program has, in every language.
-pub fn check_all(name: &str, program: &Program, precision: Precision) {
-    for what in forms(program) {
-        for target in Target::ALL {
-            check_readable(
-                name,
-                what,
-                target,
-                &emit(name, program, what, target, precision),
-            );
+/// Emits all that a program has, in every language; what it lacks is refused with a reason. Gives how many parts it has.
+pub fn check_all(name: &str, program: &Program, precision: Precision) -> usize {
+    let mut made = 0;
+    for what in EmitWhat::ALL {
+        let is_there = program.emit(0, what, Target::Wgsl, precision).is_ok();
+        made += usize::from(is_there);
+        let targets: &[Target] = if what == EmitWhat::Scene {
+            &Target::LANGUAGES
+        } else {
+            &Target::ALL
+        };
+        for &target in targets {
+            match program.emit(0, what, target, precision) {
+                Ok(bytes) => check_readable(name, what, target, &bytes),
+                // whole shaders choose what they need themselves, and some formulas have none
+                Err(problems) if !is_there || is_whole(target) => {
+                    assert!(
+                        problems.iter().all(|p| !p.code.starts_with("internal")),
+                        "{name}: {problems:?}"
+                    );
+                }
+                Err(problems) => panic!("{name}: {what:?} in {}: {problems:?}", target.name()),
+            }
         }
     }
+    assert!(made >= 2, "{name}: only {made} parts");
+    made
+}
+
+fn is_whole(target: Target) -> bool {
+    matches!(target, Target::Shadertoy | Target::Godot)
 }

@@ -1,5 +1,7 @@
 //! Random formulas, the same in every run.
 
+#![allow(dead_code, reason = "each suite uses some of it")]
+
 use proptest::prelude::*;
 use proptest::strategy::ValueTree as _;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};

@@ -1,0 +1,218 @@
+//! The pages of docs/embedding: their code is emitted, judged and, where a person wrote it, compared.
+//!
+//! `BLESS=1 cargo test --workspace --test embedding` writes them anew from the templates in `tests/data/embedding`.
+
+use std::fmt::Write as _;
+use std::fs;
+
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::{Function, Handle, Module};
+use pullback_compiler::lower::Precision;
+use pullback_compiler::{Emission, EmitWhat, Emitted, ParamsAs, Target, compile};
+use pullback_runtime::validators::{Verdict, judge};
+use pullback_tests::corpus::{files, root};
+use pullback_tests::operations::{lines, operations};
+
+const TEMPLATES: &str = "tests/data/embedding";
+const PAGES: &str = "docs/embedding";
+
+fn what(word: &str) -> EmitWhat {
+    let found = EmitWhat::ALL.into_iter().find(|w| w.name() == word);
+    found.unwrap_or_else(|| panic!("`{word}` is nothing to emit"))
+}
+
+fn target(word: &str) -> Target {
+    let found = Target::ALL.into_iter().find(|t| t.name() == word);
+    found.unwrap_or_else(|| panic!("`{word}` is no target"))
+}
+
+/// What the command `pullback emit PROGRAM OPTIONS` emits.
+fn emission(options: &str, program: &str) -> Emission {
+    let words: Vec<&str> = options.split_whitespace().collect();
+    let mut parts = Vec::new();
+    let mut language = Target::Wgsl;
+    let mut out = Emission::new(EmitWhat::Value, Target::Wgsl);
+    for pair in words.chunks(2) {
+        let &[option, value] = pair else {
+            panic!("`{options}` has an option without a value");
+        };
+        match option {
+            "--target" => language = target(value),
+            "--what" => parts = value.split(',').map(what).collect(),
+            "--name" => out.name = Some(value.to_owned()),
+            "--params" if value == "uniform" => out.params = ParamsAs::Uniform,
+            "--params" if value == "constants" => out.params = ParamsAs::Constants,
+            "--precision" if value == "fast" => out.precision = Precision::Fast,
+            _ => panic!("`{option} {value}` in a template"),
+        }
+    }
+    out.target = language;
+    if !parts.is_empty() {
+        out.parts = parts;
+    }
+    out.quoting(program, &format!("pullback emit PROGRAM {options}"))
+}
+
+fn emitted(emission: &Emission, program: &str) -> Emitted {
+    let answer = compile(program);
+    let program = answer
+        .program
+        .unwrap_or_else(|| panic!("{program}: {:?}", answer.diagnostics));
+    program
+        .emit_all(emission)
+        .unwrap_or_else(|e| panic!("{:?}: {e:?}", emission.parts))
+}
+
+#[allow(clippy::print_stderr, reason = "a judge that is not there is named")]
+fn judged(emission: &Emission, code: &Emitted) {
+    for judgement in judge(&code.bytes, emission.target, &emission.parts) {
+        match judgement.verdict {
+            Verdict::Accepted => {}
+            Verdict::Absent => eprintln!("not installed: {}", judgement.judge),
+            Verdict::Rejected(why) => panic!(
+                "{}: {why}\n{}",
+                judgement.judge,
+                String::from_utf8_lossy(&code.bytes)
+            ),
+        }
+    }
+}
+
+/// A page from its template: ```` ```emit OPTIONS ```` blocks hold a program, and become the emitted code.
+fn page(template: &str) -> String {
+    let mut out = String::new();
+    let mut lines = template.lines();
+    while let Some(line) = lines.next() {
+        let Some(options) = line.strip_prefix("```emit ") else {
+            out.push_str(line);
+            out.push('\n');
+            continue;
+        };
+        let program: Vec<&str> = lines.by_ref().take_while(|l| *l != "```").collect();
+        let program = program.join("\n");
+        let emission = emission(options, &program);
+        let code = emitted(&emission, &program);
+        judged(&emission, &code);
+        let text = String::from_utf8(code.bytes).expect("a text");
+        let word = match emission.target {
+            Target::Three | Target::Tsl => "js",
+            Target::Msl => "cpp",
+            Target::C => "c",
+            Target::Hlsl => "hlsl",
+            Target::Wgsl | Target::Bevy => "wgsl",
+            _ => "glsl",
+        };
+        let _ = write!(out, "```{word}\n{text}```\n");
+    }
+    out
+}
+
+/// Compares a page, or writes it.
+fn check(name: &str, text: &str) {
+    let path = root().join(PAGES).join(name);
+    if std::env::var_os("BLESS").is_some() {
+        fs::create_dir_all(root().join(PAGES)).expect("a folder");
+        fs::write(&path, text).expect("a page");
+    }
+    let known = fs::read_to_string(&path).unwrap_or_default();
+    assert!(known == text, "{PAGES}/{name} is not up to date: BLESS=1");
+}
+
+#[test]
+fn pages_are_made_from_templates() {
+    for template in files(TEMPLATES, "md") {
+        if template.name != "beside" {
+            check(&format!("{}.md", template.name), &page(&template.text));
+        }
+    }
+}
+
+fn parsed(text: &str) -> (Module, naga::valid::ModuleInfo) {
+    let mut module = naga::front::wgsl::parse_str(text)
+        .unwrap_or_else(|e| panic!("{}\n{text}", e.emit_to_string(text)));
+    pullback_compiler::emit::restore_operators(&mut module);
+    let info = Validator::new(ValidationFlags::all(), Capabilities::default())
+        .validate(&module)
+        .unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
+    (module, info)
+}
+
+fn last(module: &Module) -> Handle<Function> {
+    module.functions.iter().last().expect("a function").0
+}
+
+/// Most arithmetic that an emitted function may have, of that in what an expert wrote.
+const MOST: f64 = 1.1;
+
+#[test]
+fn emitted_functions_are_as_short_as_written_ones() {
+    let template =
+        fs::read_to_string(root().join(TEMPLATES).join("beside.md")).expect("a template");
+    let mut table = String::from(
+        "| Formula | Function | Operations, emitted | by hand | Lines, emitted | by hand |\n| --- | --- | --- | --- | --- | --- |\n",
+    );
+    let mut texts = String::new();
+    let (mut longer, mut reasons) = (Vec::new(), String::new());
+    for expert in files("tests/data/embedding/expert", "wgsl") {
+        let (head, own) = expert.text.split_once('\n').expect("a head");
+        let mut head = head.trim_start_matches("// ").split(" | ");
+        let (formula, asked) = (
+            head.next().expect("a formula"),
+            head.next().expect("a part"),
+        );
+        let mut program = formula.to_owned();
+        let mut reason = None;
+        for more in head {
+            match more.strip_prefix("over: ") {
+                Some(why) => reason = Some(why),
+                None => program = format!("{more}\n{formula}"),
+            }
+        }
+        let emission = Emission::new(what(asked), Target::Wgsl).precision(Precision::Fast);
+        let code = emitted(&emission, &program);
+        let text = String::from_utf8(code.bytes.clone()).expect("a text");
+        judged(&emission, &code);
+        let (ours, our_info) = parsed(&text);
+        let (theirs, their_info) = parsed(own);
+        let count = [
+            operations(&ours, &our_info, last(&ours)),
+            operations(&theirs, &their_info, last(&theirs)),
+        ];
+        let body: Vec<&str> = text.lines().skip_while(|l| l.starts_with("//")).collect();
+        let body = body.join("\n");
+        let length = [lines(&body), lines(own)];
+        let _ = writeln!(
+            table,
+            "| `{}` | {asked} | {} | {} | {} | {} |",
+            formula.replace('|', "\\|"),
+            count[0],
+            count[1],
+            length[0],
+            length[1]
+        );
+        let _ = write!(
+            texts,
+            "\n## `{formula}`, {asked}\n\nEmitted:\n\n```wgsl\n{}\n```\n\nBy hand:\n\n```wgsl\n{}\n```\n",
+            body.trim(),
+            own.trim()
+        );
+        #[allow(clippy::cast_precision_loss, reason = "small counts")]
+        let is_longer = count[0] as f64 > MOST * count[1] as f64;
+        match (is_longer, reason) {
+            (true, Some(why)) => {
+                let _ = writeln!(reasons, "- `{formula}`: {why}.");
+            }
+            (true, None) => {
+                longer.push(format!("{formula}: {} and {}\n{body}", count[0], count[1]))
+            }
+            (false, Some(_)) => longer.push(format!("{formula}: is short enough without a reason")),
+            (false, None) => {}
+        }
+    }
+    assert!(longer.is_empty(), "{}", longer.join("\n"));
+    let page = template
+        .replace("TABLE\n", &table)
+        .replace("REASONS\n", &reasons)
+        .replace("TEXTS\n", texts.trim_start());
+    check("beside.md", &page);
+}

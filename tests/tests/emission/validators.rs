@@ -1,0 +1,99 @@
+//! Every formula for every target, judged by whoever is installed.
+
+use std::collections::BTreeMap;
+
+use pullback_compiler::{Emission, EmitWhat, ParamsAs, Program, Target};
+use pullback_runtime::validators::{Verdict, judge};
+use pullback_tests::corpus::gallery;
+
+use crate::program;
+
+/// Emits and asks; counts what each judge has accepted.
+fn check(
+    name: &str,
+    program: &Program,
+    emission: &Emission,
+    counts: &mut BTreeMap<String, [usize; 2]>,
+) {
+    let Ok(emitted) = program.emit_all(emission) else {
+        return;
+    };
+    for judgement in judge(&emitted.bytes, emission.target, &emission.parts) {
+        let counted = counts.entry(judgement.judge.clone()).or_default();
+        match judgement.verdict {
+            Verdict::Accepted => counted[0] += 1,
+            Verdict::Absent => counted[1] += 1,
+            Verdict::Rejected(why) => panic!(
+                "{name}: {:?} in {} is rejected by {}\n{why}\n{}",
+                emission.parts,
+                emission.target.name(),
+                judgement.judge,
+                String::from_utf8_lossy(&emitted.bytes)
+            ),
+        }
+    }
+}
+
+/// What a formula can have: the parts that exist, together in one module.
+fn all_parts(program: &Program) -> Option<Emission> {
+    let mut whole: Option<Emission> = None;
+    for what in EmitWhat::ALL {
+        let alone = Emission::new(what, Target::Wgsl);
+        if what != EmitWhat::Scene && program.emit_all(&alone).is_ok() {
+            whole = Some(whole.map_or(alone, |w| w.and(what)));
+        }
+    }
+    whole
+}
+
+#[allow(clippy::print_stderr, reason = "a judge that is not there is named")]
+fn tell(counts: &BTreeMap<String, [usize; 2]>) {
+    for (judge, [accepted, absent]) in counts {
+        if *absent > 0 {
+            eprintln!("not installed: {judge}");
+        } else {
+            eprintln!("{judge}: {accepted} accepted");
+        }
+    }
+}
+
+#[test]
+fn the_gallery_for_every_target_is_accepted() {
+    let mut counts = BTreeMap::new();
+    for source in gallery() {
+        let program = program(&source.name, &source.text);
+        let Some(all) = all_parts(&program) else {
+            continue;
+        };
+        for target in Target::ALL {
+            let mut emission = all.clone();
+            emission.target = target;
+            for params in [ParamsAs::Arguments, ParamsAs::Uniform, ParamsAs::Constants] {
+                if params != ParamsAs::Arguments && program.params().is_empty() {
+                    continue;
+                }
+                let emission = emission.clone().params(params);
+                check(&source.name, &program, &emission, &mut counts);
+            }
+        }
+    }
+    tell(&counts);
+    assert!(
+        counts.values().any(|[accepted, _]| *accepted > 50),
+        "{counts:?}"
+    );
+}
+
+#[test]
+fn scenes_are_accepted() {
+    let mut counts = BTreeMap::new();
+    for source in gallery().iter().step_by(5) {
+        let program = program(&source.name, &source.text);
+        for target in [Target::Wgsl, Target::Glsl] {
+            let mut emission = Emission::new(EmitWhat::Scene, target);
+            emission.fixed_samples = Some(2);
+            check(&source.name, &program, &emission, &mut counts);
+        }
+    }
+    tell(&counts);
+}
