@@ -52,7 +52,7 @@ fn the_template_takes_any_formula() {
             let named = |f: &naga::Function| f.name.as_deref() == Some(name);
             linked.functions.iter().any(|(_, f)| named(f))
         };
-        assert!(has("camera_axes") && has("box_span") && !has("march_on"));
+        assert!(has("camera_axes") && has("box_span") && !has("walk_on"));
     }
 }
 

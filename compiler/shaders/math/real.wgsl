@@ -323,8 +323,9 @@ fn remainder_of_magnitudes(a: f32, b: f32, complement: bool) -> f32 {
     }
     rest = select(rest, divisor - rest, complement && rest > 0u);
     // rest < 2^24 in units of the last place of b, by bits, for that may be subnormal (a subnormal result is 0)
-    let r = bitcast<i32>(f32(rest)) + ((i32(ub >> 23u) - 150) << 23u);
-    return select(0.0, bitcast<f32>(r), rest > 0u && r >= 0x00800000);
+    let r = bitcast<u32>(f32(rest)) + (((ub >> 23u) - 150u) << 23u);
+    // from the least normal number on, and not below 0, which wraps around
+    return select(0.0, bitcast<f32>(r), rest > 0u && r - 0x00800000u < 0x7f800000u);
 }
 
 /// x - y ⌊x / y⌋, exact but for one rounding: the sign of y, |result| < |y|. NaN for y = 0.

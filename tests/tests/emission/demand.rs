@@ -94,42 +94,42 @@ fn scenes_of_space_carry_nothing_of_one_another() {
         (
             "slices",
             &["field_grad", "contour_colour"][..],
-            &["field_ray", "march_on", "matter_of"][..],
+            &["field_ray", "walk_on", "matter_of"][..],
         ),
         (
             "nested",
-            &["field_ray", "field_grad", "march_on"],
+            &["field", "field_ray", "field_grad", "walk_on"],
             &["contour_colour", "kept_part", "matter_of"],
         ),
         (
             "cutaway",
-            &["field_ray", "contour_colour", "kept_part"],
+            &["field", "field_ray", "contour_colour", "kept_part"],
             &["matter_of"],
         ),
         (
             "volume",
             &["field_grad", "matter_of"],
-            &["field_ray", "contour_opacity", "march_on", "kept_part"],
+            &["field_ray", "contour_opacity", "walk_on", "kept_part"],
         ),
         (
             "volumecut",
             &["field_grad", "matter_of", "contour_opacity"],
-            &["field_ray", "march_on", "mean_value_colour"],
+            &["field_ray", "walk_on", "mean_value_colour"],
         ),
         (
             "scatter",
             &["field", "stretch_at"],
-            &["field_grad", "field_ray", "matter_of", "march_on"],
+            &["field_grad", "field_ray", "matter_of", "walk_on"],
         ),
         (
             "glow",
             &["field_grad", "mean_glow"],
-            &["field_ray", "march_on", "matter_of", "screen_rate"],
+            &["field_ray", "walk_on", "matter_of", "screen_rate"],
         ),
         (
             "additive",
             &["field_integral", "mesh_next"],
-            &["field", "field_grad", "field_ray", "march_on", "matter_of"],
+            &["field", "field_grad", "field_ray", "walk_on", "matter_of"],
         ),
     ] {
         let text = format!("f(x, y, z) = x y + z\nshow {scene}(f)");
