@@ -99,6 +99,18 @@ impl Integrator<'_> {
         let all = self.g.real(-1.0);
         let ratio = self.g.apply(Prim::Max, &[ratio, all]);
         let log = call(self.g, Prim::Log1p, ratio);
+        // between ends of different size the ratio of both, which the difference from 1 would round
+        let small = if_less(
+            self.g,
+            upright.growth,
+            upright.zero,
+            upright.ends[1],
+            upright.ends[0],
+        );
+        let part = self.g.div(small, top);
+        let part = self.g.apply(Prim::Max, &[part, upright.zero]);
+        let (half, whole) = (self.g.real(0.5), call(self.g, Prim::Log, part));
+        let log = if_less(self.g, part, half, whole, log);
         let least = self.g.real(-FAR);
         let log = self.g.apply(Prim::Max, &[log, least]);
         let one = self.g.real(1.0);

@@ -171,7 +171,8 @@ pub static RULES: [Record; 25] = [
     Record {
         rule: Rule::AffinePower,
         name: "power of a linear function",
-        equation: "∫ x^p = L X^p φ((p + 1) λ)/φ(λ), X the end greater in size, λ = log1p(-2|w|/|X|)",
+        equation: "∫ x^p = L X^p φ((p + 1) λ)/φ(λ), X the end greater in size, λ = log1p(-2|w|/|X|) or the logarithm \
+                   of the ratio of both ends",
         bound: "any exponent; beside polynomials of degree up to 12 by moments, and nodes where |w| < |x(m)|/2",
         source: "NIST DLMF 4.10.3",
     },
