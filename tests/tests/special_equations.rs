@@ -1,7 +1,7 @@
 //! Functional equations of the special functions that are defined in the language, at random points, in `f64`.
 //!
-//! Each states a residual and what it is measured by: the sum of the sizes of its terms, times how much an argument of one
-//! rounding moves them, in the units of binary64.
+//! Each states a residual and what it is measured by: the sum of the sizes of its terms, times how much an argument of
+//! one rounding moves them, in the units of binary64.
 
 use pullback_compiler::compile;
 use pullback_compiler::eval::{Leaves, Tape};

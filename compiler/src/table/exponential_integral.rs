@@ -27,7 +27,8 @@ fn exponential() -> [Row; 5] {
             Prim::ExpintE1,
             &["expint_e1"],
             "expint_e1(z)",
-            "exponential integral E₁, the integral of exp(-t)/t from z to ∞, cut along the negative real axis; NaN for reals there",
+            "exponential integral E₁, the integral of exp(-t)/t from z to ∞, cut along the negative real axis; \
+             NaN for reals there",
             // -e^(-z)/z
             |g, args, _, _| {
                 let turned = g.neg(args[0]);
@@ -39,7 +40,8 @@ fn exponential() -> [Row; 5] {
             Prim::ExpintEi,
             &["expint_ei"],
             "expint_ei(z)",
-            "exponential integral Ei, the principal value of the integral of exp(t)/t from -∞ to z, cut along the negative real axis",
+            "exponential integral Ei, the principal value of the integral of exp(t)/t from -∞ to z, \
+             cut along the negative real axis",
             |g, args, _, _| {
                 let wave = call(g, Prim::Exp, args[0]);
                 g.div(wave, args[0])
@@ -66,7 +68,8 @@ fn exponential() -> [Row; 5] {
             Prim::Logint,
             &["logint"],
             "logint(z)",
-            "logarithmic integral Ei(log z), the principal value of the integral of 1/log(t) from 0 to z; NaN for negative reals",
+            "logarithmic integral Ei(log z), the principal value of the integral of 1/log(t) from 0 to z; \
+             NaN for negative reals",
             |g, args, _, _| {
                 let log = call(g, Prim::Log, args[0]);
                 reciprocal(g, log)
