@@ -38,7 +38,7 @@ pub mod stable;
 pub mod table;
 pub mod types;
 
-pub use emit::{EmitWhat, Emission, Emitted, EmittedFunction, ParamsAs, Target};
+pub use emit::{Emission, EmitWhat, Emitted, EmittedFunction, ParamsAs, Target};
 pub use module::{EvalModule, Evaluator, SceneModule, What};
 pub use program::{
     Compilation, ParamInfo, Picture, Program, SettingValue, compile, compile_bytes,

@@ -34,7 +34,8 @@ struct Judge {
     taken_for: &'static str,
 }
 
-const GLSL_MAIN: &str = "\nout vec4 color_of_pixel;\nvoid main() {\n    color_of_pixel = vec4(0.0);\n}\n";
+const GLSL_MAIN: &str =
+    "\nout vec4 color_of_pixel;\nvoid main() {\n    color_of_pixel = vec4(0.0);\n}\n";
 const GLSL: &[Judge] = &[
     Judge {
         program: "glslangValidator",
@@ -88,14 +89,25 @@ out vec4 COLOR;
     ),
     taken_for: "GLSL with Godot's built-in variables",
 }];
-const HLSL: &[Judge] = &[
-    Judge {
-        program: "glslangValidator",
-        arguments: &["--stdin", "-D", "-V", "-S", "frag", "-e", "main", "-o", "/dev/null"],
-        around: ("", "\nfloat4 main() : SV_Target {\n    return float4(0, 0, 0, 0);\n}\n"),
-        taken_for: "HLSL",
-    },
-];
+const HLSL: &[Judge] = &[Judge {
+    program: "glslangValidator",
+    arguments: &[
+        "--stdin",
+        "-D",
+        "-V",
+        "-S",
+        "frag",
+        "-e",
+        "main",
+        "-o",
+        "/dev/null",
+    ],
+    around: (
+        "",
+        "\nfloat4 main() : SV_Target {\n    return float4(0, 0, 0, 0);\n}\n",
+    ),
+    taken_for: "HLSL",
+}];
 const C: &[Judge] = &[
     Judge {
         program: "gcc",
@@ -111,7 +123,17 @@ const C: &[Judge] = &[
     },
 ];
 const C_FLAGS: [&str; 11] = [
-    "-std=c11", "-Wall", "-Wextra", "-Werror", "-O1", "-c", "-o", "/dev/null", "-x", "c", "-",
+    "-std=c11",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-O1",
+    "-c",
+    "-o",
+    "/dev/null",
+    "-x",
+    "c",
+    "-",
 ];
 const SPIRV: &[Judge] = &[Judge {
     program: "spirv-val",
@@ -149,7 +171,15 @@ pub fn judge(code: &[u8], target: Target, what: &[EmitWhat]) -> Vec<Judgement> {
             &Judge {
                 program: "glslangValidator",
                 arguments: &[
-                    "--stdin", "-D", "-V", "-S", "frag", "-e", "fragment_main", "-o", "/dev/null",
+                    "--stdin",
+                    "-D",
+                    "-V",
+                    "-S",
+                    "frag",
+                    "-e",
+                    "fragment_main",
+                    "-o",
+                    "/dev/null",
                 ],
                 around: ("", ""),
                 taken_for: "HLSL",
@@ -181,7 +211,9 @@ fn plain_glsl(shader: &str) -> String {
         }
         match (line.starts_with("uniform"), line.split_once(" : ")) {
             (true, Some((declared, hint))) => {
-                let end = hint.split_once(" = ").map_or(";".to_owned(), |(_, v)| format!(" = {v}"));
+                let end = hint
+                    .split_once(" = ")
+                    .map_or(";".to_owned(), |(_, v)| format!(" = {v}"));
                 format!("{declared}{end}")
             }
             _ => line.to_owned(),
@@ -189,7 +221,9 @@ fn plain_glsl(shader: &str) -> String {
     };
     let lines: Vec<String> = shader.lines().map(line).collect();
     // what a vertex shader sets is only read in GLSL's fragment stage
-    lines.join("\n").replace("back = VERTEX;", "back = VERTEX.xyz;")
+    lines
+        .join("\n")
+        .replace("back = VERTEX;", "back = VERTEX.xyz;")
 }
 
 fn by_naga(text: &str) -> Judgement {

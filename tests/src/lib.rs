@@ -18,9 +18,9 @@ pub mod loops;
 #[cfg(feature = "gpu")]
 pub mod marches;
 pub mod mutate;
+pub mod operations;
 #[cfg(feature = "gpu")]
 pub mod pictures;
-pub mod operations;
 pub mod quadrature;
 pub mod same_module;
 #[cfg(feature = "gpu")]

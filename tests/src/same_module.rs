@@ -176,10 +176,7 @@ impl Tracer<'_, '_> {
             Expression::Literal(literal) => self.literal(*literal),
             Expression::ZeroValue(ty) => self.zero(*ty),
             Expression::Constant(constant) => self.global(module.constants[*constant].init),
-            Expression::Compose {
-                ty: of,
-                components,
-            } => {
+            Expression::Compose { ty: of, components } => {
                 let parts: Vec<String> = components
                     .iter()
                     .map(|&c| self.global(c).to_string())
@@ -260,7 +257,10 @@ impl Tracer<'_, '_> {
                 arg2,
                 arg3,
             } => {
-                let all: Vec<_> = [Some(arg), arg1, arg2, arg3].into_iter().flatten().collect();
+                let all: Vec<_> = [Some(arg), arg1, arg2, arg3]
+                    .into_iter()
+                    .flatten()
+                    .collect();
                 format!("{fun:?} {}", self.list(&all))
             }
             Expression::As {
@@ -359,7 +359,11 @@ impl Tracer<'_, '_> {
                 arguments,
                 result,
             } => {
-                let key = format!("call {} {}", (self.side.name)(*function), self.list(arguments));
+                let key = format!(
+                    "call {} {}",
+                    (self.side.name)(*function),
+                    self.list(arguments)
+                );
                 let value = self.values.of(key);
                 match result {
                     Some(result) => {
@@ -469,11 +473,16 @@ impl Tracer<'_, '_> {
     }
 }
 
-fn variable_of(function: &Function, mut pointer: Handle<Expression>) -> Option<Handle<LocalVariable>> {
+fn variable_of(
+    function: &Function,
+    mut pointer: Handle<Expression>,
+) -> Option<Handle<LocalVariable>> {
     loop {
         match function.expressions[pointer] {
             Expression::LocalVariable(variable) => return Some(variable),
-            Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => pointer = base,
+            Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => {
+                pointer = base
+            }
             _ => return None,
         }
     }
@@ -523,10 +532,7 @@ fn starts(function: &Function) -> Vec<usize> {
                 }
             }
             Statement::Store { pointer, value } => {
-                let whole = matches!(
-                    function.expressions[*pointer],
-                    Expression::LocalVariable(_)
-                );
+                let whole = matches!(function.expressions[*pointer], Expression::LocalVariable(_));
                 let is_start = whole && is_constant(function, *value);
                 note(
                     *pointer,

@@ -8,7 +8,7 @@ use std::fs;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{Function, Handle, Module};
 use pullback_compiler::lower::Precision;
-use pullback_compiler::{EmitWhat, Emission, Emitted, ParamsAs, Target, compile};
+use pullback_compiler::{Emission, EmitWhat, Emitted, ParamsAs, Target, compile};
 use pullback_runtime::validators::{Verdict, judge};
 use pullback_tests::corpus::{files, root};
 use pullback_tests::operations::{lines, operations};
@@ -128,8 +128,8 @@ fn pages_are_made_from_templates() {
 }
 
 fn parsed(text: &str) -> (Module, naga::valid::ModuleInfo) {
-    let mut module =
-        naga::front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{}\n{text}", e.emit_to_string(text)));
+    let mut module = naga::front::wgsl::parse_str(text)
+        .unwrap_or_else(|e| panic!("{}\n{text}", e.emit_to_string(text)));
     pullback_compiler::emit::restore_operators(&mut module);
     let info = Validator::new(ValidationFlags::all(), Capabilities::default())
         .validate(&module)
@@ -146,7 +146,8 @@ const MOST: f64 = 1.1;
 
 #[test]
 fn emitted_functions_are_as_short_as_written_ones() {
-    let template = fs::read_to_string(root().join(TEMPLATES).join("beside.md")).expect("a template");
+    let template =
+        fs::read_to_string(root().join(TEMPLATES).join("beside.md")).expect("a template");
     let mut table = String::from(
         "| Formula | Function | Operations, emitted | by hand | Lines, emitted | by hand |\n| --- | --- | --- | --- | --- | --- |\n",
     );
@@ -155,7 +156,10 @@ fn emitted_functions_are_as_short_as_written_ones() {
     for expert in files("tests/data/embedding/expert", "wgsl") {
         let (head, own) = expert.text.split_once('\n').expect("a head");
         let mut head = head.trim_start_matches("// ").split(" | ");
-        let (formula, asked) = (head.next().expect("a formula"), head.next().expect("a part"));
+        let (formula, asked) = (
+            head.next().expect("a formula"),
+            head.next().expect("a part"),
+        );
         let mut program = formula.to_owned();
         let mut reason = None;
         for more in head {
@@ -198,12 +202,17 @@ fn emitted_functions_are_as_short_as_written_ones() {
             (true, Some(why)) => {
                 let _ = writeln!(reasons, "- `{formula}`: {why}.");
             }
-            (true, None) => longer.push(format!("{formula}: {} and {}\n{body}", count[0], count[1])),
+            (true, None) => {
+                longer.push(format!("{formula}: {} and {}\n{body}", count[0], count[1]))
+            }
             (false, Some(_)) => longer.push(format!("{formula}: is short enough without a reason")),
             (false, None) => {}
         }
     }
     assert!(longer.is_empty(), "{}", longer.join("\n"));
-    let page = template.replace("TABLE\n", &table).replace("REASONS\n", &reasons).replace("TEXTS\n", texts.trim_start());
+    let page = template
+        .replace("TABLE\n", &table)
+        .replace("REASONS\n", &reasons)
+        .replace("TEXTS\n", texts.trim_start());
     check("beside.md", &page);
 }

@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 
 use super::Target;
 use super::parts::{Part, result_names};
-use super::request::{EmitWhat, Emission, ParamsAs};
+use super::request::{Emission, EmitWhat, ParamsAs};
 use crate::formula::scalar_types;
 use crate::ir::{Op, Ty};
 use crate::link::{Linker, number_module};
@@ -119,7 +119,10 @@ fn compact(module: &mut Module, wanted: &[Handle<Function>]) -> Vec<Handle<Funct
     let mut sorted = wanted.to_vec();
     sorted.sort_unstable();
     let place: FxHashMap<_, _> = sorted.into_iter().zip(kept).collect();
-    wanted.iter().filter_map(|w| place.get(w).copied()).collect()
+    wanted
+        .iter()
+        .filter_map(|w| place.get(w).copied())
+        .collect()
 }
 
 struct Builder<'a> {
@@ -394,9 +397,7 @@ impl Builder<'_> {
             ) => {
                 let (ty, words) = match ty {
                     LanguageType::Real => (types.real, "the value"),
-                    LanguageType::Complex => {
-                        (types.vec2, "the value (real and imaginary part)")
-                    }
+                    LanguageType::Complex => (types.vec2, "the value (real and imaginary part)"),
                     LanguageType::Bool => (types.truth, "the value"),
                     LanguageType::Vector(n) => {
                         let ty = vector(usize::from(n)).unwrap_or(types.vec4);

@@ -1,6 +1,8 @@
 //! Parameters as constants in a finished function.
 
-use naga::{BinaryOperator, Block, Expression, Function, Handle, Literal, Range, Statement, UnaryOperator};
+use naga::{
+    BinaryOperator, Block, Expression, Function, Handle, Literal, Range, Statement, UnaryOperator,
+};
 
 use crate::program::Program;
 
@@ -38,22 +40,23 @@ fn fold(function: &mut Function) {
             Expression::Literal(Literal::F32(value)) => Some(value),
             _ => None,
         };
-        let folded = match function.expressions[handle] {
-            Expression::Binary { op, left, right } => {
-                literal(left).zip(literal(right)).and_then(|(a, b)| match op {
-                    BinaryOperator::Add => Some(a + b),
-                    BinaryOperator::Subtract => Some(a - b),
-                    BinaryOperator::Multiply => Some(a * b),
-                    BinaryOperator::Divide => Some(a / b),
-                    _ => None,
-                })
-            }
-            Expression::Unary {
-                op: UnaryOperator::Negate,
-                expr,
-            } => literal(expr).map(|a| -a),
-            _ => None,
-        };
+        let folded =
+            match function.expressions[handle] {
+                Expression::Binary { op, left, right } => literal(left)
+                    .zip(literal(right))
+                    .and_then(|(a, b)| match op {
+                        BinaryOperator::Add => Some(a + b),
+                        BinaryOperator::Subtract => Some(a - b),
+                        BinaryOperator::Multiply => Some(a * b),
+                        BinaryOperator::Divide => Some(a / b),
+                        _ => None,
+                    }),
+                Expression::Unary {
+                    op: UnaryOperator::Negate,
+                    expr,
+                } => literal(expr).map(|a| -a),
+                _ => None,
+            };
         if let Some(value) = folded.filter(|v| v.is_finite()) {
             function.expressions[handle] = Expression::Literal(Literal::F32(value));
             function.named_expressions.shift_remove(&handle);

@@ -14,7 +14,12 @@ use crate::table;
 const MOST_LINES: usize = 24;
 
 /// The head as lines without a comment's mark.
-pub(super) fn header(emission: &Emission, parts: &[Part], built: &[Built], signatures: &[String]) -> String {
+pub(super) fn header(
+    emission: &Emission,
+    parts: &[Part],
+    built: &[Built],
+    signatures: &[String],
+) -> String {
     let mut out = format!("pullback {}\n", env!("CARGO_PKG_VERSION"));
     if let Some(source) = &emission.source {
         out.push('\n');

@@ -11,7 +11,7 @@ mod request;
 mod restore;
 mod text;
 
-pub use request::{EmitWhat, Emission, Emitted, EmittedFunction, ParamsAs};
+pub use request::{Emission, EmitWhat, Emitted, EmittedFunction, ParamsAs};
 pub use restore::restore_operators;
 pub use text::{Target, write};
 
@@ -185,7 +185,9 @@ fn demand(message: impl Into<String>) -> ModuleError {
 /// A whole scene, by naga's writers: it has entry points and buffers.
 fn scene(picture: &Picture, emission: &Emission) -> Result<Emitted, ModuleError> {
     if emission.parts.len() > 1 {
-        return Err(demand("a scene is emitted alone, without further functions"));
+        return Err(demand(
+            "a scene is emitted alone, without further functions",
+        ));
     }
     if !Target::LANGUAGES.contains(&emission.target) {
         return Err(demand(format!(

@@ -52,7 +52,9 @@ pub(super) fn part(picture: &Picture, what: EmitWhat) -> Result<Part, ModuleErro
     if what == EmitWhat::Partials {
         let evaluation = &mut out.evaluation;
         evaluation.roots.drain(..out.values);
-        evaluation.names.drain(..out.values.min(evaluation.names.len()));
+        evaluation
+            .names
+            .drain(..out.values.min(evaluation.names.len()));
         out.values = 0;
     }
     name_results(&mut out);
@@ -64,7 +66,8 @@ fn directional(formula: &Formula) -> Result<Part, ModuleError> {
     let scalars = formula.scalars();
     if scalars.is_empty() || scalars.iter().any(|&s| s != Ty::Real) {
         return Err(ModuleError::Lower(LowerError::Demand(
-            "a derivative along a direction is of a function of reals; ask for the derivative".to_owned(),
+            "a derivative along a direction is of a function of reals; ask for the derivative"
+                .to_owned(),
         )));
     }
     let stable = formula.stabilised();
@@ -80,7 +83,11 @@ fn directional(formula: &Formula) -> Result<Part, ModuleError> {
     for (k, slope) in slopes.into_iter().enumerate() {
         let slope = slope.unwrap_or(zero);
         let is_complex = graph.ty(roots[k]) == Ty::Complex && graph.ty(slope) != Ty::Complex;
-        roots.push(if is_complex { graph.widen(slope) } else { slope });
+        roots.push(if is_complex {
+            graph.widen(slope)
+        } else {
+            slope
+        });
     }
     let (graph, roots) = finish(graph, roots, formula.rewrites);
     let mut names = column_names(&formula.name, formula.ty);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use pullback_compiler::lower::Precision;
-use pullback_compiler::{EmitWhat, Emission, ParamsAs, Target};
+use pullback_compiler::{Emission, EmitWhat, ParamsAs, Target};
 use pullback_runtime::AtomicFile;
 use pullback_runtime::validators::{Verdict, judge};
 

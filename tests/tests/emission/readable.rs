@@ -35,7 +35,9 @@ pub fn check_readable(name: &str, what: EmitWhat, target: Target, bytes: &[u8]) 
             let options = naga::front::glsl::Options::from(ShaderStage::Fragment);
             let module = naga::front::glsl::Frontend::default()
                 .parse(&options, &whole)
-                .unwrap_or_else(|error| panic!("{name}: {}\n{whole}", error.emit_to_string(&whole)));
+                .unwrap_or_else(|error| {
+                    panic!("{name}: {}\n{whole}", error.emit_to_string(&whole))
+                });
             validate(&name, &module, Capabilities::all());
         }
         _ => check_shape(&name, text),
@@ -102,7 +104,10 @@ pub fn check_all(name: &str, program: &Program, precision: Precision) -> usize {
                 Ok(bytes) => check_readable(name, what, target, &bytes),
                 // whole shaders choose what they need themselves, and some formulas have none
                 Err(problems) if !is_there || is_whole(target) => {
-                    assert!(problems.iter().all(|p| !p.code.starts_with("internal")), "{name}: {problems:?}");
+                    assert!(
+                        problems.iter().all(|p| !p.code.starts_with("internal")),
+                        "{name}: {problems:?}"
+                    );
                 }
                 Err(problems) => panic!("{name}: {what:?} in {}: {problems:?}", target.name()),
             }

@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use pullback_compiler::emit::print::{Dialect, print};
 use pullback_compiler::emit::restore_operators;
 use pullback_compiler::lower::Precision;
-use pullback_compiler::{EmitWhat, Emission, ParamsAs, Program, Target};
+use pullback_compiler::{Emission, EmitWhat, ParamsAs, Program, Target};
 use pullback_tests::corpus::gallery;
 use pullback_tests::same_module::{Side, Values, trace};
 
@@ -29,8 +29,8 @@ fn check_module(name: &str, module: &Module) -> Result<(), String> {
     if let Some(long) = text.lines().find(|l| l.chars().count() > 100) {
         return Err(format!("a long line: {long}"));
     }
-    let mut parsed =
-        naga::front::wgsl::parse_str(&text).map_err(|e| format!("{}\n{text}", e.emit_to_string(&text)))?;
+    let mut parsed = naga::front::wgsl::parse_str(&text)
+        .map_err(|e| format!("{}\n{text}", e.emit_to_string(&text)))?;
     restore_operators(&mut parsed);
     let parsed_info = validate(&parsed).map_err(|e| format!("{e:?}\n{text}"))?;
     let names: HashMap<Handle<Function>, String> = printed

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use pullback_compiler::{EmitWhat, Emission, ParamsAs, Program, Target};
+use pullback_compiler::{Emission, EmitWhat, ParamsAs, Program, Target};
 use pullback_runtime::validators::{Verdict, judge};
 use pullback_tests::corpus::gallery;
 
@@ -78,7 +78,10 @@ fn the_gallery_for_every_target_is_accepted() {
         }
     }
     tell(&counts);
-    assert!(counts.values().any(|[accepted, _]| *accepted > 50), "{counts:?}");
+    assert!(
+        counts.values().any(|[accepted, _]| *accepted > 50),
+        "{counts:?}"
+    );
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use pullback_compiler::formula::Formula;
 use pullback_compiler::types::Type;
-use pullback_compiler::{EmitWhat, Emission, Target, What, compile};
+use pullback_compiler::{Emission, EmitWhat, Target, What, compile};
 use pullback_tests::accuracy::error::Format;
 use pullback_tests::accuracy::evaluators::Point;
 use pullback_tests::accuracy::formulas::{MOST, gallery};
@@ -25,7 +25,10 @@ fn main_program(
         let mut arguments = Vec::new();
         let mut at = 0;
         let mut float = || {
-            #[allow(clippy::cast_possible_truncation, reason = "a number as the function takes it")]
+            #[allow(
+                clippy::cast_possible_truncation,
+                reason = "a number as the function takes it"
+            )]
             let value = point.args[at] as f32;
             at += 1;
             if value.is_finite() {
@@ -47,7 +50,10 @@ fn main_program(
         let taken = signature.matches(',').count() + 1;
         if taken > arguments.len() {
             for value in point.params.iter().take(params) {
-                #[allow(clippy::cast_possible_truncation, reason = "a number as the function takes it")]
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    reason = "a number as the function takes it"
+                )]
                 let value = *value as f32;
                 arguments.push(format!("{value:?}f"));
             }
@@ -142,15 +148,26 @@ fn emitted_c_is_as_good_as_its_roundings() {
             Err(reason) => found.push(format!("{}: {reason}", table.name)),
             Ok(factors) => {
                 judged += factors.rows;
-                println!("{}: K = {:.2}, {:.2}", table.name, factors.value, factors.derivative);
+                println!(
+                    "{}: K = {:.2}, {:.2}",
+                    table.name, factors.value, factors.derivative
+                );
                 let most = factors.value.max(factors.derivative);
                 if most > MOST {
-                    found.push(format!("{}: K = {most:.2}, not {MOST}: {}", table.name, factors.worst));
+                    found.push(format!(
+                        "{}: K = {most:.2}, not {MOST}: {}",
+                        table.name, factors.worst
+                    ));
                 }
                 found.extend(factors.wrong.iter().map(|w| format!("{}: {w}", table.name)));
             }
         }
     }
-    assert!(found.is_empty(), "{} violations\n{}", found.len(), found.join("\n"));
+    assert!(
+        found.is_empty(),
+        "{} violations\n{}",
+        found.len(),
+        found.join("\n")
+    );
     assert!(judged > 1500, "{judged} rows");
 }

@@ -8,7 +8,7 @@ use super::build::{Built, BuiltModule, build};
 use super::header::header;
 use super::parts::{Part, part};
 use super::print::{Printed, comment};
-use super::request::{EmitWhat, Emission, Emitted, ParamsAs};
+use super::request::{Emission, EmitWhat, Emitted, ParamsAs};
 use super::text::{listed, printed};
 use super::{Target, demand};
 use crate::ir::Ty;
@@ -70,7 +70,9 @@ pub(super) fn emitted(
     let mut kind = None;
     if draws {
         let of = Kind::of(picture).ok_or_else(|| {
-            demand("a whole shader is of a real function of two or three reals, or of a complex one")
+            demand(
+                "a whole shader is of a real function of two or three reals, or of a complex one",
+            )
         })?;
         // the shader declares them, and hands them on
         emission.params = ParamsAs::Arguments;
@@ -118,7 +120,12 @@ impl Hosted<'_> {
             found.map(|f| f.signature.clone()).unwrap_or_default()
         };
         let signatures: Vec<String> = self.built.functions.iter().map(signature).collect();
-        let head = header(&self.emission, &self.parts, &self.built.functions, &signatures);
+        let head = header(
+            &self.emission,
+            &self.parts,
+            &self.built.functions,
+            &signatures,
+        );
         comment(&head, "//")
     }
 
@@ -154,7 +161,11 @@ impl Hosted<'_> {
 
     /// The names by which a whole shader knows the parameters, and what each is.
     fn params(&self) -> Vec<(String, &ParamInfo)> {
-        let uses = self.built.functions.first().map_or(&[][..], |f| &f.arguments);
+        let uses = self
+            .built
+            .functions
+            .first()
+            .map_or(&[][..], |f| &f.arguments);
         let named = self.program.params().iter().map(|param| {
             let name = self.emission.name_of(&param.name);
             (name, param)

@@ -35,7 +35,11 @@ impl Hosted<'_> {
             ));
         }
         for function in &self.printed.functions {
-            let is_asked = self.built.functions.iter().any(|b| b.handle == function.handle);
+            let is_asked = self
+                .built
+                .functions
+                .iter()
+                .any(|b| b.handle == function.handle);
             let called = function.calls.iter();
             let called = called.filter_map(|&k| Some(self.printed.functions.get(k)?.name.clone()));
             let includes: Vec<String> = always.iter().cloned().chain(called).collect();

@@ -73,7 +73,11 @@ impl Dialect {
         };
         match self {
             Self::C | Self::Msl => {
-                let point = if digits.contains(['.', 'e']) { "" } else { ".0" };
+                let point = if digits.contains(['.', 'e']) {
+                    ""
+                } else {
+                    ".0"
+                };
                 format!("{digits}{point}f")
             }
             _ => digits,
@@ -82,8 +86,8 @@ impl Dialect {
 
     /// A whole number without sign; patterns of bits in base 16.
     pub(super) fn unsigned(self, value: u32) -> String {
-        let is_pattern = value > 0xffff
-            && (value & 0xffff == 0 || value & 0xfff == 0xfff || value & 0xfff == 0);
+        let is_pattern =
+            value > 0xffff && (value & 0xffff == 0 || value & 0xfff == 0xfff || value & 0xfff == 0);
         if is_pattern {
             format!("{value:#x}u")
         } else {

@@ -130,7 +130,10 @@ impl FunctionPrinter<'_, '_> {
                     .collect();
                 if dialect == Dialect::C {
                     let helper = self.printer.c_swizzle(self.size(vector), &letters);
-                    return Ok(Text::name(format!("{helper}({})", self.value(vector)?.text)));
+                    return Ok(Text::name(format!(
+                        "{helper}({})",
+                        self.value(vector)?.text
+                    )));
                 }
                 let base = self.value(vector)?.within(rank::NAME);
                 Ok(Text::name(format!("{base}.{letters}")))
@@ -167,7 +170,10 @@ impl FunctionPrinter<'_, '_> {
                 if dialect == Dialect::C {
                     return Err(format!("`{word}`"));
                 }
-                Ok(Text::name(format!("{word}({})", self.value(argument)?.text)))
+                Ok(Text::name(format!(
+                    "{word}({})",
+                    self.value(argument)?.text
+                )))
             }
             Expression::Math {
                 fun,
@@ -356,12 +362,7 @@ impl FunctionPrinter<'_, '_> {
         })
     }
 
-    fn c_operation(
-        &self,
-        sign: &str,
-        left: Handle<Expression>,
-        right: Handle<Expression>,
-    ) -> Made {
+    fn c_operation(&self, sign: &str, left: Handle<Expression>, right: Handle<Expression>) -> Made {
         let printer = self.printer;
         let size = self.size(left).max(self.size(right));
         let number = |handle: Handle<Expression>| match self.function.expressions[handle] {
@@ -421,7 +422,9 @@ fn is_chain(text: &str, sign: &str) -> bool {
             _ => {}
         }
     }
-    let operators = ["&", "|", "^", "&&", "||", "<", ">", "<=", ">=", "==", "!=", "+", "-", "*"];
+    let operators = [
+        "&", "|", "^", "&&", "||", "<", ">", "<=", ">=", "==", "!=", "+", "-", "*",
+    ];
     outside
         .split(' ')
         .all(|word| word == sign || !operators.contains(&word))

@@ -93,6 +93,7 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
                 function,
                 &self.plan,
                 &self.names,
+                &|h| self.size(h) > 1,
                 handle,
             );
             self.names[at] = Some(self.scope.fresh(wanted.as_deref().unwrap_or("t")));
@@ -135,9 +136,10 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
         let mut parameters = Vec::new();
         let arguments = self.function.arguments.iter();
         for (k, argument) in (0_u32..).zip(arguments) {
-            let mut own = self.function.expressions.iter().filter(
-                |(_, e)| matches!(e, Expression::FunctionArgument(index) if *index == k),
-            );
+            let mut own =
+                self.function.expressions.iter().filter(
+                    |(_, e)| matches!(e, Expression::FunctionArgument(index) if *index == k),
+                );
             let known = own.next().and_then(|(h, _)| self.names[h.index()].clone());
             let given = argument.name.clone().unwrap_or_default();
             parameters.push(printer.declared(&known.unwrap_or(given), argument.ty)?);
@@ -246,7 +248,10 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
                 let naga::ArraySize::Constant(count) = size else {
                     return Err("an array without a fixed size".to_owned());
                 };
-                format!("{} {name}[{count}] = {value};", self.printer.type_name(*base)?)
+                format!(
+                    "{} {name}[{count}] = {value};",
+                    self.printer.type_name(*base)?
+                )
             } else {
                 let ty = self.info[handle].ty.handle();
                 format!("{} {name} = {value};", self.printer.inner_name(inner, ty)?)
@@ -335,11 +340,7 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
     }
 
     /// `x += y`.
-    fn compound(
-        &self,
-        place: &str,
-        value: Handle<Expression>,
-    ) -> Result<Option<String>, String> {
+    fn compound(&self, place: &str, value: Handle<Expression>) -> Result<Option<String>, String> {
         let Expression::Binary { op, left, right } = self.function.expressions[value] else {
             return Ok(None);
         };
@@ -433,9 +434,8 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
         if self.births.contains_key(&address(statement)) {
             return false;
         }
-        let hidden = |h: &Handle<Expression>| {
-            !self.plan.needed[h.index()] || !self.plan.named[h.index()]
-        };
+        let hidden =
+            |h: &Handle<Expression>| !self.plan.needed[h.index()] || !self.plan.named[h.index()];
         match statement {
             Statement::Emit(range) => range.clone().all(|h| hidden(&h)),
             Statement::Call {
@@ -460,7 +460,11 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
         Ok(format!("!{}", self.value(condition)?.within(rank::NAME)))
     }
 
-    fn switch(&mut self, selector: Handle<Expression>, cases: &'m [SwitchCase]) -> Result<(), String> {
+    fn switch(
+        &mut self,
+        selector: Handle<Expression>,
+        cases: &'m [SwitchCase],
+    ) -> Result<(), String> {
         let selector = self.value(selector)?.text;
         let head = self.condition(&selector);
         self.line(&format!("switch {head} {{"));

@@ -214,9 +214,8 @@ impl Printer<'_> {
     }
 
     fn c_helper(&self, name: String, result: &str, parameters: &str, value: &str) -> String {
-        let text = format!(
-            "static inline {result} {name}({parameters}) {{\n    return {value};\n}}\n"
-        );
+        let text =
+            format!("static inline {result} {name}({parameters}) {{\n    return {value};\n}}\n");
         self.helpers.borrow_mut().insert(name.clone(), text);
         name
     }

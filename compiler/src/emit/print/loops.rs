@@ -28,21 +28,26 @@ impl<'m> FunctionPrinter<'_, 'm> {
         let (taken, repeated, start) = match first {
             Statement::Loop { .. } => (0, first, None),
             Statement::Store { pointer, value } => {
-                let Expression::LocalVariable(variable) = self.function.expressions[*pointer] else {
+                let Expression::LocalVariable(variable) = self.function.expressions[*pointer]
+                else {
                     return Ok(None);
                 };
                 let Some(at) = others.iter().position(|s| !self.is_quiet(s)) else {
                     return Ok(None);
                 };
                 let is_start = self.is_born_in(first, variable);
-                let alone = self
-                    .plan
-                    .survey
-                    .is_only_in(variable, address(others[at]), address(first));
+                let alone =
+                    self.plan
+                        .survey
+                        .is_only_in(variable, address(others[at]), address(first));
                 if !is_start || !alone {
                     return Ok(None);
                 }
-                (at + 1, others[at], Some((variable, self.value(*value)?.text)))
+                (
+                    at + 1,
+                    others[at],
+                    Some((variable, self.value(*value)?.text)),
+                )
             }
             _ => return Ok(None),
         };
@@ -81,10 +86,7 @@ impl<'m> FunctionPrinter<'_, 'm> {
                 self.declaration(*counter)?
             }
         };
-        self.line(&format!(
-            "for ({start}; {}; {update}) {{",
-            tested.condition
-        ));
+        self.line(&format!("for ({start}; {}; {update}) {{", tested.condition));
         self.steps(&tested.steps)?;
         Ok(Some(taken))
     }
@@ -161,11 +163,7 @@ impl<'m> FunctionPrinter<'_, 'm> {
     }
 
     /// The loop as one that tests first, where it is.
-    fn tested(
-        &self,
-        body: &'m Block,
-        continuing: &'m Block,
-    ) -> Result<Option<Tested<'m>>, String> {
+    fn tested(&self, body: &'m Block, continuing: &'m Block) -> Result<Option<Tested<'m>>, String> {
         let Some(at) = body.iter().position(|s| !self.is_quiet(s)) else {
             return Ok(None);
         };

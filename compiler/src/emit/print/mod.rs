@@ -167,7 +167,11 @@ impl<'m> Printer<'m> {
         for &handle in wanted.iter().chain(order) {
             if !self.functions.contains_key(&handle) {
                 let name = self.module.functions[handle].name.as_deref();
-                let name = self.fresh(name.unwrap_or("helper"), &of_wanted, wanted.contains(&handle));
+                let name = self.fresh(
+                    name.unwrap_or("helper"),
+                    &of_wanted,
+                    wanted.contains(&handle),
+                );
                 self.functions.insert(handle, name);
             }
         }
@@ -185,11 +189,19 @@ impl<'m> Printer<'m> {
             self.members.insert(handle, members);
         }
         for (handle, constant) in self.module.constants.iter() {
-            let name = self.fresh(constant.name.as_deref().unwrap_or("VALUE"), &of_wanted, false);
+            let name = self.fresh(
+                constant.name.as_deref().unwrap_or("VALUE"),
+                &of_wanted,
+                false,
+            );
             self.constants.insert(handle, name);
         }
         for (handle, global) in self.module.global_variables.iter() {
-            let name = self.fresh(global.name.as_deref().unwrap_or("global"), &of_wanted, false);
+            let name = self.fresh(
+                global.name.as_deref().unwrap_or("global"),
+                &of_wanted,
+                false,
+            );
             self.globals.insert(handle, name);
         }
     }

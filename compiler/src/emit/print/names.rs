@@ -48,7 +48,6 @@ impl Names {
         self.taken.insert(name.clone());
         name
     }
-
 }
 
 /// The name in letters that every language has, not beginning or ending with what is kept for compilers.
@@ -68,7 +67,10 @@ fn clean(wanted: &str) -> String {
     let kept = ["gl_", "GL_"].iter().all(|p| !trimmed.starts_with(p));
     match (begins_well, kept) {
         (true, true) => trimmed.to_owned(),
-        _ => format!("v_{}", trimmed.trim_start_matches(['g', 'l', 'G', 'L', '_'])),
+        _ => format!(
+            "v_{}",
+            trimmed.trim_start_matches(['g', 'l', 'G', 'L', '_'])
+        ),
     }
 }
 
@@ -78,6 +80,7 @@ pub(super) fn described(
     function: &Function,
     plan: &Plan,
     names: &[Option<String>],
+    is_vector: &dyn Fn(Handle<Expression>) -> bool,
     handle: Handle<Expression>,
 ) -> Option<String> {
     const LONGEST: usize = 16;
@@ -88,7 +91,7 @@ pub(super) fn described(
                 .cloned()
                 .flatten()
                 .or_else(|| function.arguments.get(k as usize)?.name.clone()),
-            Expression::AccessIndex { base, index } if index < 4 => {
+            Expression::AccessIndex { base, index } if index < 4 && is_vector(base) => {
                 let base = names.get(base.index())?.clone()?;
                 Some(format!("{base}_{}", ["x", "y", "z", "w"][index as usize]))
             }

@@ -49,8 +49,8 @@ impl Plan {
             }
             needed[at] = true;
             let computed = planner.survey.computed[at];
-            let is_named = computed
-                .is_some_and(|c| planner.wants_name(handle, c) || must_name(handle));
+            let is_named =
+                computed.is_some_and(|c| planner.wants_name(handle, c) || must_name(handle));
             named[at] = is_named;
             let places = match (is_named, computed) {
                 (true, Some(spot)) => vec![spot],
@@ -117,9 +117,7 @@ impl Planner<'_> {
     fn wants_name(&self, handle: Handle<Expression>, computed: Spot) -> bool {
         let uses = &self.uses[handle.index()];
         let users_name = self.function.named_expressions.contains_key(&handle);
-        let repeated = uses
-            .iter()
-            .any(|&u| self.survey.is_repeated(computed, u));
+        let repeated = uses.iter().any(|&u| self.survey.is_repeated(computed, u));
         match self.function.expressions[handle] {
             Expression::Load { pointer } => match variable_of(self.function, pointer) {
                 // the variable's own name says as much

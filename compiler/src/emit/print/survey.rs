@@ -142,10 +142,7 @@ impl Survey {
                 if let Some(variable) = variable_of(function, *pointer) {
                     self.stores.entry(variable).or_default().push(spot.at);
                 }
-                let whole = matches!(
-                    function.expressions[*pointer],
-                    Expression::LocalVariable(_)
-                );
+                let whole = matches!(function.expressions[*pointer], Expression::LocalVariable(_));
                 self.refer(function, *pointer, path, whole);
             }
             Statement::Block(inner) => self.block(function, inner, spot.within, path)?,
@@ -192,10 +189,13 @@ impl Survey {
         sets: bool,
     ) {
         if let Some(variable) = variable_of(function, pointer) {
-            self.references.entry(variable).or_default().push(Reference {
-                path: path.to_vec(),
-                sets,
-            });
+            self.references
+                .entry(variable)
+                .or_default()
+                .push(Reference {
+                    path: path.to_vec(),
+                    sets,
+                });
         }
     }
 
@@ -247,7 +247,11 @@ impl Survey {
     }
 
     /// Where a variable is declared; nothing where it is not used.
-    pub(super) fn birth(&self, function: &Function, variable: Handle<LocalVariable>) -> Option<Birth> {
+    pub(super) fn birth(
+        &self,
+        function: &Function,
+        variable: Handle<LocalVariable>,
+    ) -> Option<Birth> {
         let all = self.references.get(&variable)?;
         let first = all.first()?;
         let has_start = function.local_variables[variable].init.is_some();

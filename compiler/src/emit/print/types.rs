@@ -49,7 +49,11 @@ impl Printer<'_> {
             return Ok(format!("{name}: {}", self.type_name(ty)?));
         }
         if let TypeInner::Array { base, size, .. } = self.module.types[ty].inner {
-            return Ok(format!("{} {name}[{}]", self.type_name(base)?, count(size)?));
+            return Ok(format!(
+                "{} {name}[{}]",
+                self.type_name(base)?,
+                count(size)?
+            ));
         }
         Ok(format!("{} {name}", self.type_name(ty)?))
     }
@@ -71,7 +75,11 @@ impl Printer<'_> {
             };
             for (member, name) in members.iter().zip(&self.members[&handle]) {
                 let declared = self.declared(name, member.ty)?;
-                let end = if self.dialect == Dialect::Wgsl { "," } else { ";" };
+                let end = if self.dialect == Dialect::Wgsl {
+                    ","
+                } else {
+                    ";"
+                };
                 text.push_str(&format!("    {declared}{end}\n"));
             }
             text.push_str(&match self.dialect {
@@ -99,9 +107,10 @@ impl Printer<'_> {
             parameters.push(self.declared(name, member.ty)?);
             body.push_str(&format!("    made.{name} = {name};\n"));
         }
+        let head = format!("{name} make_{name}({}) {{", parameters.join(", "));
+        let head = layout::wrap(&head, 0);
         Ok(format!(
-            "{name} make_{name}({}) {{\n    {name} made;\n{body}    return made;\n}}\n",
-            parameters.join(", ")
+            "\n{head}    {name} made;\n{body}    return made;\n}}\n"
         ))
     }
 
@@ -215,7 +224,11 @@ impl Printer<'_> {
     pub(super) fn splat(&self, name: &str, size: usize, value: &str) -> String {
         match self.dialect {
             Dialect::Hlsl => format!("(({name}){value})"),
-            Dialect::C if value.chars().all(|c| c.is_alphanumeric() || c == '.' || c == '_') => {
+            Dialect::C
+                if value
+                    .chars()
+                    .all(|c| c.is_alphanumeric() || c == '.' || c == '_') =>
+            {
                 self.made(name, &vec![value.to_owned(); size])
             }
             Dialect::C => format!("{}({value})", self.c_splat(size)),
