@@ -34,12 +34,21 @@ fn check(
     }
 }
 
-/// What a formula can have: the parts that exist, together in one module.
-fn all_parts(program: &Program) -> Option<Emission> {
+/// What a formula can have, together in one module; what takes long to derive only where it is wanted.
+fn all_parts(program: &Program, with_long: bool) -> Option<Emission> {
+    let short = [EmitWhat::Value, EmitWhat::Gradient, EmitWhat::Derivative];
+    let long = [
+        EmitWhat::Partials,
+        EmitWhat::Directional,
+        EmitWhat::Hessian,
+        EmitWhat::Integral,
+        EmitWhat::Opacity,
+    ];
+    let more = if with_long { &long[..] } else { &[] };
     let mut whole: Option<Emission> = None;
-    for what in EmitWhat::ALL {
+    for &what in short.iter().chain(more) {
         let alone = Emission::new(what, Target::Wgsl);
-        if what != EmitWhat::Scene && program.emit_all(&alone).is_ok() {
+        if program.emit_all(&alone).is_ok() {
             whole = Some(whole.map_or(alone, |w| w.and(what)));
         }
     }
@@ -59,22 +68,20 @@ fn tell(counts: &BTreeMap<String, [usize; 2]>) {
 
 #[test]
 fn the_gallery_for_every_target_is_accepted() {
-    let mut counts = BTreeMap::new();
-    for source in gallery() {
+    let (mut counts, mut turn) = (BTreeMap::new(), 0);
+    for (k, source) in gallery().iter().enumerate() {
         let program = program(&source.name, &source.text);
-        let Some(all) = all_parts(&program) else {
+        let Some(all) = all_parts(&program, k % 8 == 0) else {
             continue;
         };
         for target in Target::ALL {
             let mut emission = all.clone();
             emission.target = target;
-            for params in [ParamsAs::Arguments, ParamsAs::Uniform, ParamsAs::Constants] {
-                if params != ParamsAs::Arguments && program.params().is_empty() {
-                    continue;
-                }
-                let emission = emission.clone().params(params);
-                check(&source.name, &program, &emission, &mut counts);
-            }
+            // the ways to have parameters take turns
+            let ways = [ParamsAs::Arguments, ParamsAs::Uniform, ParamsAs::Constants];
+            let emission = emission.params(ways[turn % 3]);
+            turn += usize::from(!program.params().is_empty());
+            check(&source.name, &program, &emission, &mut counts);
         }
     }
     tell(&counts);

@@ -93,6 +93,7 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
                 function,
                 &self.plan,
                 &self.names,
+                &|h| self.size(h) > 1,
                 handle,
             );
             self.names[at] = Some(self.scope.fresh(wanted.as_deref().unwrap_or("t")));

@@ -66,26 +66,26 @@ impl<'m> FunctionPrinter<'_, 'm> {
             return Ok(None);
         };
         let ty = self.function.local_variables[*counter].ty;
+        let born = self.births.get(&address(repeated)).cloned();
+        let born = born.unwrap_or_default();
         let start = match start {
             Some((variable, start)) if variable == *counter => {
                 self.begun(&self.variable(variable), ty, Some(start))?
             }
             Some(_) => return Ok(None),
             None => {
-                let born = self.births.get(&address(repeated)).cloned();
-                let all = born.unwrap_or_default();
-                if !all.iter().any(|b| b.0 == *counter)
-                    || self.function.local_variables[*counter].init.is_none()
-                {
+                let has_start = self.function.local_variables[*counter].init.is_some();
+                if !has_start || !born.iter().any(|b| b.0 == *counter) {
                     return Ok(None);
-                }
-                for (other, _) in all.iter().filter(|b| b.0 != *counter) {
-                    let line = self.declaration(*other)?;
-                    self.line(&format!("{line};"));
                 }
                 self.declaration(*counter)?
             }
         };
+        // variables that live on behind the loop
+        for (other, _) in born.iter().filter(|b| b.0 != *counter) {
+            let line = self.declaration(*other)?;
+            self.line(&format!("{line};"));
+        }
         self.line(&format!("for ({start}; {}; {update}) {{", tested.condition));
         self.steps(&tested.steps)?;
         Ok(Some(taken))

@@ -80,6 +80,7 @@ pub(super) fn described(
     function: &Function,
     plan: &Plan,
     names: &[Option<String>],
+    is_vector: &dyn Fn(Handle<Expression>) -> bool,
     handle: Handle<Expression>,
 ) -> Option<String> {
     const LONGEST: usize = 16;
@@ -90,7 +91,7 @@ pub(super) fn described(
                 .cloned()
                 .flatten()
                 .or_else(|| function.arguments.get(k as usize)?.name.clone()),
-            Expression::AccessIndex { base, index } if index < 4 => {
+            Expression::AccessIndex { base, index } if index < 4 && is_vector(base) => {
                 let base = names.get(base.index())?.clone()?;
                 Some(format!("{base}_{}", ["x", "y", "z", "w"][index as usize]))
             }

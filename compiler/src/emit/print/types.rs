@@ -107,9 +107,10 @@ impl Printer<'_> {
             parameters.push(self.declared(name, member.ty)?);
             body.push_str(&format!("    made.{name} = {name};\n"));
         }
+        let head = format!("{name} make_{name}({}) {{", parameters.join(", "));
+        let head = layout::wrap(&head, 0);
         Ok(format!(
-            "{name} make_{name}({}) {{\n    {name} made;\n{body}    return made;\n}}\n",
-            parameters.join(", ")
+            "\n{head}    {name} made;\n{body}    return made;\n}}\n"
         ))
     }
 
