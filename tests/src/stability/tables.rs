@@ -56,7 +56,7 @@ pub fn by_class(all: &[Found]) -> String {
         let _ = write!(
             out,
             "| {} | `{}` | {count} | {} | {} | {} | {} | {} | {} |",
-            found.class.name,
+            found.class.name.replace('|', "\\|"),
             found.class.formula,
             digit(median),
             digit(most),
