@@ -30,3 +30,46 @@ fn real_hash(x: f32, y: f32, z: f32, w: f32) -> f32 {
     let finite = is_finite(x) & is_finite(y) & is_finite(z) & is_finite(w);
     return select(make_nan(x), value, finite);
 }
+
+/// Digits of the hashes at the eight corners of a cell of the lattice: on its lower and on its upper face across z the corners
+/// (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1).
+struct LatticeCell {
+    low: vec4f,
+    high: vec4f,
+}
+
+/// ⌊2^(32 - shift) h⌋ for the hashes h at the corners of the cell from (x, y, z), whole numbers, to (x + 1, y + 1, z + 1), for
+/// 8 ≤ shift < 32. NaN where a coordinate is infinite or NaN. What corners have in common is computed once.
+/// Error: none.
+fn lattice_cell(x: f32, y: f32, z: f32, w: f32, shift: u32) -> LatticeCell {
+    let at = vec3f(x, y, z);
+    let sizes = bitcast<vec3u>(at) & vec3u(0x7fffffffu);
+    // below 2^23 the next number is the next integer, too
+    let near = (max(sizes.x, max(sizes.y, sizes.z)) < 0x4b000000u) & is_finite(w);
+    var lower = bitcast<vec3u>(vec3i(at));
+    var upper = lower + vec3u(1u);
+    if !near {
+        lower = vec3u(hash_coordinate(x), hash_coordinate(y), hash_coordinate(z));
+        upper = vec3u(hash_coordinate(x + 1.0), hash_coordinate(y + 1.0), hash_coordinate(z + 1.0));
+    }
+    let inner = hash_word(hash_coordinate(w));
+    let cell = LatticeCell(
+        lattice_face(lower, upper, hash_word(lower.z + inner), shift),
+        lattice_face(lower, upper, hash_word(upper.z + inner), shift),
+    );
+    if !near {
+        if !(is_finite(x) && is_finite(y) && is_finite(z) && is_finite(w)) {
+            let nan = vec4f(make_nan(x));
+            return LatticeCell(nan, nan);
+        }
+    }
+    return cell;
+}
+
+/// The face of a cell at a word of the coordinate across.
+fn lattice_face(lower: vec3u, upper: vec3u, inner: u32, shift: u32) -> vec4f {
+    let low = hash_word(lower.y + inner);
+    let high = hash_word(upper.y + inner);
+    let corners = vec4u(hash_word(lower.x + low), hash_word(upper.x + low), hash_word(lower.x + high), hash_word(upper.x + high));
+    return vec4f(corners >> vec4u(shift));
+}

@@ -278,5 +278,7 @@ fn shade(pixel: vec2f) -> vec4f {
         let n = box_normal(ray.origin + span.y * ray.direction, settings.center, settings.box);
         seen = seen_edges(seen, sight, span.y, n, true);
     }
-    return seen_over(seen, stage_at(settings.backdrop, ray, settings.center, settings.box, settings.background));
+    let colour = seen_over(seen, stage_at(settings.backdrop, ray, settings.center, settings.box, settings.background));
+    // opaque where nothing else is asked for: then no alpha is computed
+    return vec4f(colour.rgb, select(1.0, colour.a, settings.backdrop == 2u));
 }

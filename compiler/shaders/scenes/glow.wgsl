@@ -89,7 +89,7 @@ fn field_colour(p: vec3f) -> vec4f { return vec4f(); }
 
 fn is_nan(x: f32) -> bool { return false; }
 fn is_finite(x: f32) -> bool { return false; }
-fn length3_safe(v: vec3f) -> f32 { return 0.0; }
+fn distance_by_slope(jet: vec4f, farthest: f32) -> f32 { return 0.0; }
 fn sight_near(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn mean_glow(a: f32, b: f32, epsilon: f32, square: bool) -> f32 { return 0.0; }
@@ -107,12 +107,10 @@ fn shortest_side() -> f32 {
 // The field as a distance, by its slope, which is 1 where it is one; FARTHEST where that is not known.
 fn distance_at(p: vec3f) -> f32 {
     let jet = field_grad(p);
-    let directed = is_finite(jet.x) && is_finite(jet.y) && is_finite(jet.z);
-    if !is_finite(jet.w) || (settings.estimate == 0u && !directed) {
-        return FARTHEST;
+    if settings.estimate == 0u {
+        return distance_by_slope(jet, FARTHEST);
     }
-    let slope = select(length3_safe(jet.xyz), 1.0, settings.estimate == 1u);
-    return clamp(jet.w / max(slope, 1e-37), -FARTHEST, FARTHEST);
+    return select(FARTHEST, clamp(jet.w, -FARTHEST, FARTHEST), is_finite(jet.w));
 }
 
 // Colour of the light at a distance from the surface.
@@ -169,12 +167,13 @@ fn glow_along(ray: Ray, span: vec2f, pixel: vec2f) -> vec3f {
             let colour = own_colour(field_colour(p), glow_colour(select(near, 0.0, crossing), epsilon));
             light += colour * (mean_glow(before.y, here, epsilon, settings.falloff == 0u) * before.x * faded(middle));
         }
-        if t >= extent {
+        let left = extent - t;
+        if left <= 0.0 {
             break;
         }
-        step = min(step, extent - t);
+        step = min(step, left);
         before = vec2f(step, here);
-        t = select(t + step, extent, step >= extent - t);
+        t = select(t + step, extent, step >= left);
     }
     return light * settings.gain;
 }

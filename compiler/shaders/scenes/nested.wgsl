@@ -187,5 +187,7 @@ fn shade(pixel: vec2f) -> vec4f {
     if span.y > start {
         seen = seen_shells(seen, sight, vec2f(start, span.y), settings.box, settings.steps, shells(), pixel);
     }
-    return seen_over(seen, stage_at(settings.backdrop, sight.ray, settings.center, settings.box, settings.background));
+    let colour = seen_over(seen, stage_at(settings.backdrop, sight.ray, settings.center, settings.box, settings.background));
+    // opaque where nothing else is asked for: then no alpha is computed
+    return vec4f(colour.rgb, select(1.0, colour.a, settings.backdrop == 2u));
 }

@@ -298,9 +298,10 @@ fn shade(pixel: vec2f) -> vec4f {
         return behind;
     }
     let seen = scattered_in_box(sight.ray, span, pixel);
-    let colour = cloud_over(seen, edged(behind, sight, span.y, 0.4));
+    var colour = cloud_over(seen, edged(behind, sight, span.y, 0.4));
     if span.x > 0.0 {
-        return edged(colour, sight, span.x, 0.55);
+        colour = edged(colour, sight, span.x, 0.55);
     }
-    return colour;
+    // opaque where nothing else is asked for: then no alpha is computed
+    return vec4f(colour.rgb, select(1.0, colour.a, settings.backdrop == 2u));
 }

@@ -240,5 +240,6 @@ fn shade(pixel: vec2f) -> vec4f {
     if span.x > 0.0 {
         colour = edged(colour, span.x, 0.8, sight);
     }
-    return colour;
+    // opaque where nothing else is asked for: then no alpha is computed
+    return vec4f(colour.rgb, select(1.0, colour.a, settings.backdrop == 2u));
 }

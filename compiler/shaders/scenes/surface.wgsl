@@ -211,18 +211,14 @@ struct Search {
     touching: bool,    // of a hit
 }
 
-// Of values on the side of the level where a walk is, without the sign of that side, the bits have the order of the sizes;
-// those of all other values, and of what is no number, are from here on.
+// Of values on the side of the level where a walk is, without the sign of that side, the bits are those of the size. Of all other
+// values, and of what is no number, they are from here on.
 const ANY_SIZE: u32 = 0x7f800001u;
-const INFINITE: u32 = 0x7f800000u;
-// Half of a size is this less.
-const HALF: u32 = 0x00800000u;
 
 // The first hit on a path. The inner loop only walks, by values alone, so that rays side by side walk together to where each
 // has something to search, and then search together. A surface is within a step whose ends are on both sides of the level.
-// It may be next to a sample that is nearer to the level than both its neighbours, and before one that is on the same side
-// though the line through both samples before it has crossed the level there: slopes tell. Such a suspect is looked at when the
-// walk stops.
+// It may be, too, where the size of f - level has a minimum between samples: slopes tell. Such a suspect is looked at when the walk
+// stops.
 fn march(path: Path) -> Hit {
     if !(path.extent > 0.0) {
         return NO_HIT;
@@ -230,96 +226,86 @@ fn march(path: Path) -> Hit {
     let count = f32(path.count);
     let step = path.extent / count;
     let stride = step * path.ray.direction;
-    // of the value before: the bit of its sign, and its size, and the size before that; what the next size has to be below for
-    // the walk to go on as it is
+    // of the value before: the bit of its sign, and its size; the size before that, and whether it has fallen since then
     var side = 0u;
-    var size = ANY_SIZE;
-    var older = INFINITE;
+    var size = 0.0;
+    var older = 0.0;
+    var fell = false;
+    // what bits of the next value have to be below for the walk to go on
     var limit = 0u;
+    // samples that are suspects; the second one stops the walk
     var suspect = -1.0;
+    var later = -1.0;
     var k = 0.0;
     loop {
         var value: f32;
         loop {
             value = field(path.ray.origin + k * stride) - settings.level;
             let bits = bitcast<u32>(value) ^ side;
+            let next = bitcast<f32>(bits);
             if bits >= limit {
-                if !goes_on(size, bits) {
-                    break;
-                }
-                if !is_far_turn(older, size, bits) {
+                break;
+            }
+            if fell & (older + 3.0 * next >= 4.0 * size) {
+                if !is_far(older, size, next) {
+                    later = select(k, k - 1.0, next >= size);
                     if suspect >= 0.0 {
                         break;
                     }
-                    suspect = select(k - 1.0, k, bits < size);
+                    suspect = later;
+                    later = -1.0;
                 }
             }
             if k >= count {
                 break;
             }
-            limit = limit_after(size, bits);
+            fell = next < size;
             older = size;
-            size = bits;
+            size = next;
             k += 1.0;
         }
-        let near = sample_of((k - 1.0) * step, bitcast<f32>(size ^ side));
+        let near = sample_of((k - 1.0) * step, bitcast<f32>(bitcast<u32>(size) ^ side));
         let far = sample_of(k * step, value);
-        let bits = bitcast<u32>(value) ^ side;
-        let goes = goes_on(size, bits);
-        if suspect < 0.0 {
-            let falls = goes & (bits < size);
-            let fell = (limit < ANY_SIZE) & (size < ANY_SIZE);
-            suspect = select(select(-1.0, k - 1.0, fell & !goes), k, falls & (k >= count));
-        }
-        let search = search_step(path.ray, near, far, step, suspect * step);
+        let search = search_step(path.ray, near, far, k > 0.0, step, suspect * step);
         if search.mode == FOUND {
             return Hit(search.t, true, search.touching);
         }
         if k >= count {
             return NO_HIT;
         }
-        suspect = select(-1.0, select(k - 1.0, k, bits < size), goes && bits >= limit);
+        suspect = later;
+        later = -1.0;
+        let next = bitcast<u32>(value) ^ side;
+        let goes_on = next < limit;
+        fell = !goes_on | (bitcast<f32>(next) < size);
         side = bitcast<u32>(value) & 0x80000000u;
-        limit = select(0u, select(bitcast<u32>(value) ^ side, limit_after(size, bits), goes), far.valid);
-        older = select(INFINITE, size, goes);
-        size = bitcast<u32>(value) ^ side;
+        let now = bitcast<f32>(bitcast<u32>(value) ^ side);
+        older = select(now, size, goes_on);
+        size = now;
+        limit = select(0u, ANY_SIZE, far.valid);
         k += 1.0;
     }
     return NO_HIT;
 }
 
-// Whether a walk may go on from a size to the next: both are on one side, or both are no numbers.
-fn goes_on(size: u32, bits: u32) -> bool {
-    return (size < ANY_SIZE) & (bits < ANY_SIZE);
-}
-
-// What the size after these two has to be below for nothing to be looked at: it has to go on falling, if it falls; where it has
-// fallen by more than half, the next one is looked at in any case.
-fn limit_after(size: u32, bits: u32) -> u32 {
-    return select(select(ANY_SIZE, bits, bits < size), 0u, bits + HALF < size);
-}
-
-// Whether of three sizes the middle one is the least, and so great that the level is not reached next to it: beyond the nearest
-// of three samples f goes no farther than from there to one of the others, unless it turns more often. A parabola goes an
-// eighth of that.
-fn is_far_turn(older: u32, size: u32, bits: u32) -> bool {
-    return (bits >= size) & (2.0 * bitcast<f32>(size) > max(bitcast<f32>(older), bitcast<f32>(bits)));
+// Whether a minimum next to three sizes, the second less than the first, is not 0: a parabola goes below the least of them by no
+// more than an eighth of the greatest difference, and this takes all of it. Where the first is not known, which is then as the
+// second, it may be.
+fn is_far(older: f32, size: f32, next: f32) -> bool {
+    return (older > size) & (min(size, next) > max(older - size, next - size));
 }
 
 // The hit in the steps up to where a walk has stopped: first next to the sample at the distance `suspect`, if that is one, then
 // in the last step. Drivers copy a function to where it is called, and f may be long: there is one place that takes samples.
-fn search_step(ray: Ray, near: Sample, far: Sample, step: f32, suspect: f32) -> Search {
+fn search_step(ray: Ray, near: Sample, far: Sample, known: bool, step: f32, suspect: f32) -> Search {
     var search: Search;
-    if far.t <= 0.0 {
-        return search;
-    }
     for (var part = view.zero; part < 2u; part++) {
         if part == 0u {
             search.mode = select(WALK, TURN, suspect >= 0.0);
             search.t = suspect;
             search.high = far;
         } else {
-            search = search_between(near, far);
+            search = search_between(near, far, known);
         }
         while search.mode != WALK && search.mode != FOUND {
             search = searched(search, sample_ray(ray, search.t), step);
@@ -331,14 +317,14 @@ fn search_step(ray: Ray, near: Sample, far: Sample, step: f32, suspect: f32) -> 
     return search;
 }
 
-// What else there is to be searched between two samples.
-fn search_between(a: Sample, b: Sample) -> Search {
-    if a.valid && b.valid && opposite(a, b) {
-        return search_crossing(a, b);
-    }
+// What else there is to be searched between two samples, if there is a first one.
+fn search_between(a: Sample, b: Sample, known: bool) -> Search {
     var search: Search;
-    if a.valid == b.valid {
+    if !known || (a.valid == b.valid && !(b.valid && opposite(a, b))) {
         return search;
+    }
+    if a.valid == b.valid {
+        return search_crossing(a, b);
     }
     search.mode = EDGE;
     search.low = b;
@@ -845,12 +831,17 @@ fn shade(pixel: vec2f) -> vec4f {
     }
     let base = select(nearest_in_box(ground_point), spot_point(seen, hit), hit.found);
     let light = look_at_base(base, ray.direction, hit, ground > 0.0);
-    var colour = sky_behind(ray.direction);
+    var colour: vec4f;
     if hit.found {
         colour = vec4f(surface_colour(light.spot, ray.direction, light.closed), 1.0);
     } else if ground > 0.0 {
         colour = vec4f(lit_ground(ground_point, light.jet, ray.direction, shadowed), 1.0);
+    } else {
+        colour = sky_behind(ray.direction);
     }
-    colour = over_box(colour, sight, span, hit.found, pixel);
-    return vec4f(clamp(colour.rgb, vec3f(0.0), vec3f(1.0)), colour.a);
+    if span.y > max(span.x, 0.0) {
+        colour = over_box(colour, sight, span, hit.found, pixel);
+    }
+    // opaque where nothing else is asked for: then no alpha is computed
+    return vec4f(clamp(colour.rgb, vec3f(0.0), vec3f(1.0)), select(1.0, colour.a, settings.backdrop == 2u));
 }

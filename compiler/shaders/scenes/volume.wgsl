@@ -239,9 +239,10 @@ fn shade(pixel: vec2f) -> vec4f {
         return backdrop();
     }
     let seen = seen_in_box(sight.ray, span, pixel);
-    let colour = gas_over(seen, edged(backdrop(), sight, span.y, 0.4), settings.gas);
+    var colour = gas_over(seen, edged(backdrop(), sight, span.y, 0.4), settings.gas);
     if span.x > 0.0 {
-        return edged(colour, sight, span.x, 0.55);
+        colour = edged(colour, sight, span.x, 0.55);
     }
-    return colour;
+    // opaque where nothing else is asked for: then no alpha is computed
+    return vec4f(colour.rgb, select(1.0, colour.a, settings.backdrop == 1u));
 }

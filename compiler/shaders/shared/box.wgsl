@@ -16,11 +16,8 @@ fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) ->
 fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f {
     let q = (p - center) / max(half_size, vec3f(1e-20));
     let a = abs(q);
-    if a.x >= a.y && a.x >= a.z {
-        return vec3f(sign(q.x), 0.0, 0.0);
-    }
-    if a.y >= a.z {
-        return vec3f(0.0, sign(q.y), 0.0);
-    }
-    return vec3f(0.0, 0.0, sign(q.z));
+    let across_x = (a.x >= a.y) & (a.x >= a.z);
+    let across_y = !across_x & (a.y >= a.z);
+    let side = select(vec3f(-1.0), vec3f(1.0), q >= vec3f(0.0));
+    return select(vec3f(0.0), side, vec3<bool>(across_x, across_y, !(across_x | across_y)));
 }

@@ -12,6 +12,19 @@ fn mean_inverse(a: f32, b: f32, square: bool) -> f32 {
     return select(quotient, series, abs(x) < 0.03) / a;
 }
 
+// A value as a distance, by the length of its gradient; `farthest` where that is not known, and at most that.
+fn distance_by_slope(jet: vec4f, farthest: f32) -> f32 {
+    let square = dot(jet.xyz, jet.xyz);
+    var distance = jet.w * inverseSqrt(square);
+    if !is_moderate(square) {
+        distance = jet.w / max(scaled_length(jet.xyz), 1e-37);
+        if is_nan(jet.x) || is_nan(jet.y) || is_nan(jet.z) || is_inf(scaled_length(jet.xyz)) {
+            return farthest;
+        }
+    }
+    return select(farthest, clamp(distance, -farthest, farthest), is_finite(jet.w));
+}
+
 // Mean over a step of the emission 1/(|d| + ε), or ε/(|d| + ε)², of a field d that runs linearly from a to b: exact, also
 // where d changes its sign within the step.
 fn mean_glow(a: f32, b: f32, epsilon: f32, square: bool) -> f32 {

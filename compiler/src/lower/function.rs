@@ -5,6 +5,7 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::body::Body;
+use super::lattice::Cells;
 use super::scaled::powers_in_products;
 use super::{Format, LowerError, NagaTypes, NumberTypes, Precision};
 use crate::ir::{
@@ -124,6 +125,12 @@ pub fn lower(
     let types = NagaTypes::insert(&mut linker.out.types);
     let format = interface.precision.format();
     let live = graph.reachable(&roots);
+    let mut scaled = powers_in_products(graph, &roots, &live, interface.precision);
+    let cells = if format.is_wide() {
+        Cells::default()
+    } else {
+        Cells::find(graph, &roots, &live, &mut scaled)
+    };
     let mut lowering = Lowering {
         graph,
         types,
@@ -135,7 +142,8 @@ pub fn lower(
         leaves: interface.leaves,
         precision: interface.precision,
         linker,
-        scaled: powers_in_products(graph, &roots, &live, interface.precision),
+        scaled,
+        cells,
         live,
         pairs: FxHashMap::default(),
         values: vec![None; graph.nodes().len()],
@@ -161,8 +169,9 @@ pub(super) struct Lowering<'g, 'l, 's> {
     pub(super) precision: Precision,
     pub(super) linker: &'l mut Linker<'s>,
     live: Vec<bool>,
-    /// Powers that the one product computes which needs them.
+    /// What the one node computes that needs it: powers in products, hashes of which digits are wanted.
     pub(super) scaled: Vec<bool>,
+    pub(super) cells: Cells,
     /// Results of functions that are computed in pairs, by pair function and operand.
     pub(super) pairs: FxHashMap<(&'static str, Id), Handle<Expression>>,
     pub(super) values: Vec<Option<Handle<Expression>>>,
@@ -232,7 +241,10 @@ impl Lowering<'_, '_, '_> {
         }
         let node = self.graph.node(id);
         self.body.at(self.graph.span(id));
-        let value = self.node(node)?;
+        let value = match self.corner(id)? {
+            Some(value) => value,
+            None => self.node(node)?,
+        };
         self.values[id.index()] = Some(value);
         self.name(id, node, value);
         Ok(())

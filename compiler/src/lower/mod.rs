@@ -7,6 +7,7 @@ mod format;
 mod function;
 mod fused;
 mod identifier;
+mod lattice;
 mod leaves;
 mod numbers;
 mod repeat;
