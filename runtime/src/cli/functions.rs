@@ -9,6 +9,7 @@ use pullback_compiler::{check, table};
 use super::failure::Failure;
 
 mod bounds;
+mod declared;
 mod json;
 
 /// Arguments of `pullback functions`.
@@ -129,7 +130,7 @@ fn markdown(output: &mut dyn Write, entries: Vec<Entry>) -> io::Result<()> {
             doc.replace('|', "\\|")
         )?;
     }
-    Ok(())
+    declared::write(output)
 }
 
 fn list(output: &mut dyn Write, entries: Vec<Entry>) -> io::Result<()> {

@@ -1,0 +1,78 @@
+//! What is declared about errors, in Markdown.
+
+use std::io::{self, Write};
+
+use pullback_compiler::table::{self, Bound, Bounds, excess};
+
+use super::bounds::TIERS;
+
+/// The bounds of functions of the shader library, then those of functions that are defined in the language.
+pub(super) fn write(output: &mut dyn Write) -> io::Result<()> {
+    library(output)?;
+    special(output)
+}
+
+fn library(output: &mut dyn Write) -> io::Result<()> {
+    writeln!(
+        output,
+        "\n## Declared errors\n\nThe largest error of a value / of a derivative, in ulp of float32 (`accurate`), 2⁻⁴⁸ of the result \
+         (`extended`) and ulp of float64\n(`double`), of each component; norm: of the greatest component, unit: of 1 where the \
+         result is smaller.\n"
+    )?;
+    let tiers: Vec<String> = TIERS.map(|tier| format!("`{}`", tier.name())).to_vec();
+    writeln!(output, "| function | of | {} |", tiers.join(" | "))?;
+    writeln!(output, "| --- | --- | --- | --- | --- |")?;
+    for bounds in table::bounds() {
+        let cells = TIERS.map(|tier| pair(bounds, tier));
+        let domain = if bounds.complex { "complex" } else { "real" };
+        writeln!(
+            output,
+            "| `{}` | {domain} | {} |",
+            bounds.word,
+            cells.join(" | ")
+        )?;
+    }
+    Ok(())
+}
+
+fn pair(bounds: &Bounds, tier: pullback_compiler::lower::Precision) -> String {
+    let cell = |bound: Option<Bound>| bound.map_or_else(|| "none".to_owned(), |b| b.to_string());
+    let (value, derivative) = (bounds.value(Some(tier)), bounds.derivative(Some(tier)));
+    format!("{} / {}", cell(value), cell(derivative))
+}
+
+fn special(output: &mut dyn Write) -> io::Result<()> {
+    writeln!(
+        output,
+        "\n## Declared errors of special functions\n\nFunctions that are defined in the language may be off by 16 u of the norm of \
+         the result and what changes of the arguments by 2 u\nmove, u = 2⁻²⁴, in `accurate` (10⁻⁶ of the norm); by four times that in \
+         units of 2⁻⁴⁸ in `extended`, and sixteen times that in units of\n2⁻⁵³ in `double` (3 · 10⁻¹⁴ of the norm). Derivatives by four \
+         times as much. The suite `special` holds them to it. `accurate` exceeds that here:\n"
+    )?;
+    writeln!(
+        output,
+        "| function | values off by | that is times the goal | because |"
+    )?;
+    writeln!(output, "| --- | --- | --- | --- |")?;
+    let defined = table::rows()
+        .iter()
+        .filter(|row| row.is_written() && (row.is_defined(false) || row.is_defined(true)));
+    for row in defined {
+        let name = row.names.first().copied().unwrap_or(row.mnemonic);
+        let cases = [(name.to_owned(), ""), (format!("{name}_real"), " of reals")];
+        let mut last = 1.0;
+        for (key, of) in cases {
+            let (factor, reason) = excess(&key);
+            if factor > last {
+                last = factor;
+                writeln!(
+                    output,
+                    "| `{}`{of} | {} u | {factor} | {reason} |",
+                    row.usage,
+                    16.0 * factor
+                )?;
+            }
+        }
+    }
+    Ok(())
+}
