@@ -124,10 +124,29 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
         let signature = self.signature()?;
         self.line(&format!("{signature} {{"));
         self.level += 1;
+        self.mark_unused();
         self.block(&self.function.body)?;
         self.level -= 1;
         self.line("}");
         Ok((signature, self.out))
+    }
+
+    /// C compilers warn of arguments that a function does not use.
+    fn mark_unused(&mut self) {
+        if self.printer.dialect != Dialect::C {
+            return;
+        }
+        let mut unused = Vec::new();
+        for (handle, expression) in self.function.expressions.iter() {
+            if matches!(expression, Expression::FunctionArgument(_))
+                && !self.plan.needed[handle.index()]
+            {
+                unused.extend(self.names[handle.index()].clone());
+            }
+        }
+        for name in unused {
+            self.line(&format!("(void){name};"));
+        }
     }
 
     fn signature(&self) -> Result<String, String> {
