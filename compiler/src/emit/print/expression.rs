@@ -311,7 +311,8 @@ impl FunctionPrinter<'_, '_> {
         // chains of one operator need no brackets on the left
         let same = left.text.contains(&format!(" {sign} ")) && left.rank == rank;
         let left = match rank {
-            rank::BITS | rank::OR | rank::AND if same && is_chain(&left.text, sign) => left.text,
+            rank::OR | rank::AND if left.rank == rank => left.text,
+            rank::BITS if same && is_chain(&left.text, sign) => left.text,
             _ => left.within(least_left),
         };
         let right = right.within(least_right);

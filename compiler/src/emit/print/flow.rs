@@ -26,6 +26,8 @@ pub(super) struct FunctionPrinter<'p, 'm> {
     pub(super) names: Vec<Option<String>>,
     pub(super) variables: FxHashMap<Handle<LocalVariable>, String>,
     pub(super) births: FxHashMap<usize, Vec<(Handle<LocalVariable>, Birth)>>,
+    /// Names of the arguments, used or not.
+    arguments: Vec<String>,
     scope: Names,
     out: String,
     pub(super) level: usize,
@@ -56,6 +58,7 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
             names: vec![None; function.expressions.len()],
             variables: FxHashMap::default(),
             births: FxHashMap::default(),
+            arguments: Vec::new(),
             scope: printer.names.clone(),
             plan,
             out: String::new(),
@@ -77,6 +80,7 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
                 self.names[handle.index()] = arguments.get(k as usize).cloned();
             }
         }
+        self.arguments = arguments;
         self.name_variables();
         let users = function.named_expressions.iter();
         let users = users.filter(|(handle, _)| self.plan.named[handle.index()]);
@@ -124,25 +128,40 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
         let signature = self.signature()?;
         self.line(&format!("{signature} {{"));
         self.level += 1;
+        self.mark_unused();
         self.block(&self.function.body)?;
         self.level -= 1;
         self.line("}");
         Ok((signature, self.out))
     }
 
+    /// C compilers warn of arguments that a function does not use.
+    fn mark_unused(&mut self) {
+        if self.printer.dialect != Dialect::C {
+            return;
+        }
+        let is_used = |k: usize| {
+            self.function.expressions.iter().any(|(handle, e)| {
+                matches!(e, Expression::FunctionArgument(index) if *index as usize == k)
+                    && self.plan.needed[handle.index()]
+            })
+        };
+        let all = self.arguments.iter().enumerate();
+        let unused: Vec<String> = all
+            .filter(|(k, _)| !is_used(*k))
+            .map(|(_, name)| name.clone())
+            .collect();
+        for name in unused {
+            self.line(&format!("(void){name};"));
+        }
+    }
+
     fn signature(&self) -> Result<String, String> {
         let printer = self.printer;
         let name = &printer.functions[&self.handle];
         let mut parameters = Vec::new();
-        let arguments = self.function.arguments.iter();
-        for (k, argument) in (0_u32..).zip(arguments) {
-            let mut own =
-                self.function.expressions.iter().filter(
-                    |(_, e)| matches!(e, Expression::FunctionArgument(index) if *index == k),
-                );
-            let known = own.next().and_then(|(h, _)| self.names[h.index()].clone());
-            let given = argument.name.clone().unwrap_or_default();
-            parameters.push(printer.declared(&known.unwrap_or(given), argument.ty)?);
+        for (argument, name) in self.function.arguments.iter().zip(&self.arguments) {
+            parameters.push(printer.declared(name, argument.ty)?);
         }
         let result = match &self.function.result {
             Some(result) => Some(printer.type_name(result.ty)?),

@@ -23,6 +23,10 @@ impl Names {
         let built_in = naga::keywords::wgsl::BUILTIN_IDENTIFIERS.iter();
         if dialect == Dialect::Wgsl {
             taken.extend(wgsl.chain(built_in).map(|w| (*w).to_owned()));
+            // short names of types, which a module may define anew, and which we write
+            for size in 2..=4 {
+                taken.extend(["f", "i", "u", "h"].map(|kind| format!("vec{size}{kind}")));
+            }
         } else {
             let words = FOREIGN.lines().filter(|l| !l.starts_with('#'));
             taken.extend(words.flat_map(str::split_whitespace).map(str::to_owned));
