@@ -89,7 +89,7 @@ fn field_colour(p: vec3f) -> vec4f { return vec4f(); }
 
 fn is_nan(x: f32) -> bool { return false; }
 fn is_finite(x: f32) -> bool { return false; }
-fn distance_by_slope(jet: vec4f, farthest: f32) -> f32 { return 0.0; }
+fn distance_of(jet: vec4f, by_slope: bool, farthest: f32) -> f32 { return 0.0; }
 fn sight_near(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> Sight { return Sight(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn mean_glow(a: f32, b: f32, epsilon: f32, square: bool) -> f32 { return 0.0; }
@@ -106,11 +106,7 @@ fn shortest_side() -> f32 {
 
 // The field as a distance, by its slope, which is 1 where it is one; FARTHEST where that is not known.
 fn distance_at(p: vec3f) -> f32 {
-    let jet = field_grad(p);
-    if settings.estimate == 0u {
-        return distance_by_slope(jet, FARTHEST);
-    }
-    return select(FARTHEST, clamp(jet.w, -FARTHEST, FARTHEST), is_finite(jet.w));
+    return distance_of(field_grad(p), settings.estimate == 0u, FARTHEST);
 }
 
 // Colour of the light at a distance from the surface.

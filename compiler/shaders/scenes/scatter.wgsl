@@ -165,12 +165,12 @@ fn density_of(value: f32) -> f32 {
     return select(clamp(value, 0.0, densest()), 0.0, is_nan(value));
 }
 
-// The integral of the density along a way: in closed form where there is one that is a number, else by the midpoint rule.
-fn column_of(way: Way) -> f32 {
+// The integral of the density along a way: in closed form where there is one that is a number, and 1, else by the midpoint rule, and 0.
+fn column_of(way: Way) -> vec2f {
     if settings.steps_by != BY_SAMPLES {
         let exact = column_within(field_column(way.ray.origin, way.ray.direction, 0.0, way.extent), densest() * way.extent);
         if exact >= 0.0 {
-            return exact;
+            return vec2f(exact, 1.0);
         }
     }
     var column = 0.0;
@@ -179,7 +179,7 @@ fn column_of(way: Way) -> f32 {
         let middle = way.ray.origin + 0.5 * (part.x + part.y) * way.ray.direction;
         column += (part.y - part.x) * density_of(field(middle));
     }
-    return column;
+    return vec2f(column, 0.0);
 }
 
 // A way of this extent, in as many stretches as the diagonal's number says.
@@ -248,26 +248,38 @@ fn scattered_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Scattered {
         let stretch = stretch_at(k, way.count, way.phase, way.extent);
         let entry = ray.origin + (start + stretch.x) * ray.direction;
         let length = stretch.y - stretch.x;
+        let end = entry + length * ray.direction;
         let middle = entry + 0.5 * length * ray.direction;
-        let extent = extent_to_light(middle, light);
-        // one place that evaluates the field: on the stretch, and from its middle to the light
-        var part = Way(Ray(entry, ray.direction), length, 1u, 0.5);
-        var column = 0.0;
-        var lit = 0.0;
-        for (var j = view.zero; j < 2u; j++) {
-            lit = column_of(part);
-            if j > 0u {
-                break;
-            }
-            column = lit;
-            if column <= 0.0 {
-                break;
-            }
-            part = way_of(Ray(middle, light), extent, settings.light_steps, fract(phase + GOLDEN * f32(k)));
-        }
+        let extents = vec3f(extent_to_light(entry, light), extent_to_light(middle, light), extent_to_light(end, light));
         // as in a uniform medium, which is right to the second order in any: the column to the light changes as that way's extent
-        let ends = vec2f(extent_to_light(entry, light), extent_to_light(entry + length * ray.direction, light));
-        seen = seen_behind(seen, vec3f(column, lit * (ends / max(extent, 1e-20))), cloud);
+        let shares = extents.xz / max(extents.y, 1e-20);
+        let turn = fract(phase + GOLDEN * f32(k));
+        // one place that evaluates the field: on the stretch, and from its middle to the light; in closed form from both its ends
+        var part = Way(Ray(entry, ray.direction), length, 1u, 0.5);
+        var columns = vec3f();
+        for (var j = view.zero; j < 3u; j++) {
+            let column = column_of(part);
+            if j == 0u {
+                columns.x = column.x;
+                if column.x <= 0.0 {
+                    break;
+                }
+                part = way_of(Ray(middle, light), extents.y, settings.light_steps, turn);
+                if column.y > 0.0 {
+                    part = way_of(Ray(entry, light), extents.x, settings.light_steps, turn);
+                }
+            } else if column.y == 0.0 {
+                columns.y = column.x * shares.x;
+                columns.z = column.x * shares.y;
+                break;
+            } else if j == 1u {
+                columns.y = column.x;
+                part = way_of(Ray(end, light), extents.z, settings.light_steps, turn);
+            } else {
+                columns.z = column.x;
+            }
+        }
+        seen = seen_behind(seen, columns, cloud);
     }
     return seen;
 }

@@ -77,7 +77,6 @@ struct Settings {
 @group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
 @group(0) @binding(2) var<uniform> settings: Settings;
 
-fn field(p: vec3f) -> f32 { return 0.0; }
 // f and df/dt at o + t d
 fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f { return vec2f(); }
 // (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
@@ -167,7 +166,6 @@ fn path_within(ray: Ray, span: vec2f, steps: u32) -> Path {
     return Path(Ray(ray.origin + enter * ray.direction, ray.direction), extent, step_count(extent, steps));
 }
 
-// f - level and its slope, of which differences and ratios are finite.
 fn sample_ray(ray: Ray, t: f32) -> Sample {
     let raw = field_ray(ray.origin, ray.direction, t);
     let value = clamp(raw.x - settings.level, -LARGEST, LARGEST);
@@ -175,26 +173,18 @@ fn sample_ray(ray: Ray, t: f32) -> Sample {
     return Sample(t, value, slope, !is_nan(raw.x));
 }
 
-// A sample of which no slope is known.
-fn sample_of(t: f32, value: f32) -> Sample {
-    return Sample(t, clamp(value, -LARGEST, LARGEST), 0.0, !is_nan(value));
-}
-
 fn opposite(a: Sample, b: Sample) -> bool {
     return (a.value < 0.0) != (b.value < 0.0);
 }
 
-// What a march does: it walks on, or it searches a step that may hold the surface: it looks at a sample where |f - level| is
-// least among its neighbours for which way it falls, and at the other end of that step; it looks for where f ceases to be
-// defined, for an extremum, for a root.
+// What a march does with its next sample: it walks on, or it searches a step that may hold the surface for where f ceases to
+// be defined, for an extremum, for a root.
 const WALK: u32 = 0u;
-const TURN: u32 = 1u;
-const TURNED: u32 = 2u;
-const EDGE: u32 = 3u;
-const DIP: u32 = 4u;
-const CROSSING: u32 = 5u;
+const EDGE: u32 = 1u;
+const DIP: u32 = 2u;
+const CROSSING: u32 = 3u;
 // The search has ended with a hit.
-const FOUND: u32 = 6u;
+const FOUND: u32 = 4u;
 
 // A search within a step, between two samples: of the last valid one and a bad place; of two around an extremum; of two
 // around a root. Where it ends without a hit it is a walk again.
@@ -207,145 +197,91 @@ struct Search {
     third: Sample,     // the valid end of the step, the sample nearest to the level, or the one that was replaced
     low_weight: f32,   // of the Illinois method
     high_weight: f32,
-    size: f32,         // greatest |f - level| before a search for an extremum or a root
+    size: f32,         // greatest |f - level| before a search for a root
     touching: bool,    // of a hit
 }
 
-// Of values on the side of the level where a walk is, without the sign of that side, the bits are those of the size. Of all other
-// values, and of what is no number, they are from here on.
-const ANY_SIZE: u32 = 0x7f800001u;
-
-// The first hit on a path. The inner loop only walks, by values alone, so that rays side by side walk together to where each
-// has something to search, and then search together. A surface is within a step whose ends are on both sides of the level.
-// It may be, too, where the size of f - level has a minimum between samples: slopes tell. Such a suspect is looked at when the walk
-// stops.
+// The first hit on a path. The inner loop only walks, so that rays side by side walk together to where each has
+// something to search, and then search together. Drivers copy a function to where it is called, and f may be long:
+// samples are taken in this one place.
 fn march(path: Path) -> Hit {
     if !(path.extent > 0.0) {
         return NO_HIT;
     }
-    let count = f32(path.count);
-    let step = path.extent / count;
-    let stride = step * path.ray.direction;
-    // of the value before: the bit of its sign, and its size; the size before that, and whether it has fallen since then
-    var side = 0u;
-    var size = 0.0;
-    var older = 0.0;
-    var fell = false;
-    // what bits of the next value have to be below for the walk to go on
-    var limit = 0u;
-    // samples that are suspects; the second one stops the walk
-    var suspect = -1.0;
-    var later = -1.0;
-    var k = 0.0;
+    let step = path.extent / f32(path.count);
+    var a: Sample;
+    var b: Sample;
+    var search: Search;
+    var t = 0.0;
+    var k = 0u;
     loop {
-        var value: f32;
+        var found: Sample;
+        var promising = false;
         loop {
-            value = field(path.ray.origin + k * stride) - settings.level;
-            let bits = bitcast<u32>(value) ^ side;
-            let next = bitcast<f32>(bits);
-            if bits >= limit {
+            found = sample_ray(path.ray, t);
+            if search.mode != WALK {
                 break;
             }
-            if fell & (older + 3.0 * next >= 4.0 * size) {
-                if !is_far(older, size, next) {
-                    later = select(k, k - 1.0, next >= size);
-                    if suspect >= 0.0 {
-                        break;
-                    }
-                    suspect = later;
-                    later = -1.0;
-                }
-            }
-            if k >= count {
+            a = b;
+            b = found;
+            promising = k > 0u && may_hit(a, b);
+            k++;
+            if promising || k > path.count {
                 break;
             }
-            fell = next < size;
-            older = size;
-            size = next;
-            k += 1.0;
+            t = f32(k) * step;
         }
-        let near = sample_of((k - 1.0) * step, bitcast<f32>(bitcast<u32>(size) ^ side));
-        let far = sample_of(k * step, value);
-        let search = search_step(path.ray, near, far, k > 0.0, step, suspect * step);
+        if search.mode != WALK {
+            search = searched(search, a, b, found);
+        } else if promising {
+            search = search_step(a, b);
+        }
         if search.mode == FOUND {
             return Hit(search.t, true, search.touching);
         }
-        if k >= count {
+        if search.mode == WALK && k > path.count {
             return NO_HIT;
         }
-        suspect = later;
-        later = -1.0;
-        let next = bitcast<u32>(value) ^ side;
-        let goes_on = next < limit;
-        fell = !goes_on | (bitcast<f32>(next) < size);
-        side = bitcast<u32>(value) & 0x80000000u;
-        let now = bitcast<f32>(bitcast<u32>(value) ^ side);
-        older = select(now, size, goes_on);
-        size = now;
-        limit = select(0u, ANY_SIZE, far.valid);
-        k += 1.0;
+        t = select(search.t, f32(k) * step, search.mode == WALK);
     }
     return NO_HIT;
 }
 
-// Whether a minimum next to three sizes, the second less than the first, is not 0: a parabola goes below the least of them by no
-// more than an eighth of the greatest difference, and this takes all of it. Where the first is not known, which is then as the
-// second, it may be.
-fn is_far(older: f32, size: f32, next: f32) -> bool {
-    return (older > size) & (min(size, next) > max(older - size, next - size));
+// Whether the step from a to b may hold the surface.
+fn may_hit(a: Sample, b: Sample) -> bool {
+    if a.valid && b.valid {
+        return opposite(a, b) || may_dip(a, b);
+    }
+    return a.valid != b.valid;
 }
 
-// The hit in the steps up to where a walk has stopped: first next to the sample at the distance `suspect`, if that is one, then
-// in the last step. Drivers copy a function to where it is called, and f may be long: there is one place that takes samples.
-fn search_step(ray: Ray, near: Sample, far: Sample, known: bool, step: f32, suspect: f32) -> Search {
-    var search: Search;
-    for (var part = view.zero; part < 2u; part++) {
-        if part == 0u {
-            search.mode = select(WALK, TURN, suspect >= 0.0);
-            search.t = suspect;
-            search.high = far;
-        } else {
-            search = search_between(near, far, known);
-        }
-        while search.mode != WALK && search.mode != FOUND {
-            search = searched(search, sample_ray(ray, search.t), step);
-        }
-        if search.mode == FOUND {
-            break;
-        }
+// A search between two samples of which `may_hit` is true.
+fn search_step(a: Sample, b: Sample) -> Search {
+    if !a.valid {
+        return edge_place(Search(EDGE, 0u, 0.0, a, b, b, 1.0, 1.0, 0.0, false));
     }
-    return search;
-}
-
-// What else there is to be searched between two samples, if there is a first one.
-fn search_between(a: Sample, b: Sample, known: bool) -> Search {
-    var search: Search;
-    if !known || (a.valid == b.valid && !(b.valid && opposite(a, b))) {
-        return search;
+    if !b.valid {
+        return edge_place(Search(EDGE, 0u, 0.0, b, a, a, 1.0, 1.0, 0.0, false));
     }
-    if a.valid == b.valid {
+    if opposite(a, b) {
         return search_crossing(a, b);
     }
-    search.mode = EDGE;
-    search.low = b;
-    search.high = a;
-    if b.valid {
-        search.low = a;
-        search.high = b;
+    var nearest = a;
+    if abs(b.value) < abs(a.value) {
+        nearest = b;
     }
-    search.third = search.high;
-    return edge_place(search);
+    return dip_place(Search(DIP, 0u, 0.0, a, b, nearest, 1.0, 1.0, 0.0, false));
 }
 
-// A search with the sample that it wanted, in steps of this length.
-fn searched(search: Search, found: Sample, step: f32) -> Search {
-    switch search.mode {
-        case TURN: { return searched_turn(search, found, step); }
-        case TURNED: { return searched_turned(search, found); }
-        case EDGE: { return searched_edge(search, found); }
-        case DIP: { return searched_dip(search, found); }
-        default: { return searched_crossing(search, found); }
+// A search with the sample that it wanted, in the step from a to b.
+fn searched(search: Search, a: Sample, b: Sample, found: Sample) -> Search {
+    if search.mode == EDGE {
+        return searched_edge(search, found);
     }
+    if search.mode == DIP {
+        return searched_dip(search, a, b, found);
+    }
+    return searched_crossing(search, found);
 }
 
 // The end of a search without a hit.
@@ -353,40 +289,6 @@ fn nothing(search: Search) -> Search {
     var next = search;
     next.mode = WALK;
     return next;
-}
-
-// From the sample where the size is least, the one at the other end of the step into which it falls, up to `high`.
-fn searched_turn(search: Search, found: Sample, step: f32) -> Search {
-    var next = search;
-    let falls = (found.slope < 0.0) != (found.value < 0.0);
-    next.mode = TURNED;
-    next.third = found;
-    next.t = found.t + select(-step, step, falls);
-    if !found.valid || next.t < -0.5 * step || next.t > search.high.t + 0.5 * step {
-        return nothing(search);
-    }
-    return next;
-}
-
-fn searched_turned(search: Search, found: Sample) -> Search {
-    var next = search;
-    next.low = search.third;
-    next.high = found;
-    if found.t < search.third.t {
-        next.low = found;
-        next.high = search.third;
-    }
-    if !found.valid || opposite(next.low, next.high) || !may_dip(next.low, next.high) {
-        return nothing(search);
-    }
-    if abs(found.value) < abs(next.third.value) {
-        next.third = found;
-    }
-    next.mode = DIP;
-    next.low_weight = 1.0;
-    next.high_weight = 1.0;
-    next.size = max(abs(next.low.value), abs(next.high.value));
-    return dip_place(next);
 }
 
 // Where f ceases to be defined between a bad place (low) and a valid sample (high), by bisection from the valid side.
@@ -443,18 +345,18 @@ fn dip_place(search: Search) -> Search {
     return next;
 }
 
-fn searched_dip(search: Search, found: Sample) -> Search {
+fn searched_dip(search: Search, a: Sample, b: Sample, found: Sample) -> Search {
     if !found.valid {
         return nothing(search);
     }
-    if opposite(search.low, found) {
-        return search_crossing(search.low, found);
+    if opposite(a, found) {
+        return search_crossing(a, found);
     }
     var next = search;
     if abs(found.value) <= abs(next.third.value) {
         next.third = found;
     }
-    if (found.slope < 0.0) == (search.low.slope < 0.0) {
+    if (found.slope < 0.0) == (a.slope < 0.0) {
         next.low = found;
         next.low_weight = 1.0;
         next.high_weight *= 0.5;
@@ -468,7 +370,8 @@ fn searched_dip(search: Search, found: Sample) -> Search {
         return dip_place(next);
     }
     // Even roots: the extremum equals the level to rounding.
-    if abs(next.third.value) <= 3e-7 * search.size {
+    let size = max(abs(a.value), abs(b.value));
+    if abs(next.third.value) <= 3e-7 * size {
         next.mode = FOUND;
         next.t = next.third.t;
         next.touching = true;
@@ -831,17 +734,12 @@ fn shade(pixel: vec2f) -> vec4f {
     }
     let base = select(nearest_in_box(ground_point), spot_point(seen, hit), hit.found);
     let light = look_at_base(base, ray.direction, hit, ground > 0.0);
-    var colour: vec4f;
+    var colour = sky_behind(ray.direction);
     if hit.found {
         colour = vec4f(surface_colour(light.spot, ray.direction, light.closed), 1.0);
     } else if ground > 0.0 {
         colour = vec4f(lit_ground(ground_point, light.jet, ray.direction, shadowed), 1.0);
-    } else {
-        colour = sky_behind(ray.direction);
     }
-    if span.y > max(span.x, 0.0) {
-        colour = over_box(colour, sight, span, hit.found, pixel);
-    }
-    // opaque where nothing else is asked for: then no alpha is computed
-    return vec4f(clamp(colour.rgb, vec3f(0.0), vec3f(1.0)), select(1.0, colour.a, settings.backdrop == 2u));
+    colour = over_box(colour, sight, span, hit.found, pixel);
+    return vec4f(clamp(colour.rgb, vec3f(0.0), vec3f(1.0)), colour.a);
 }

@@ -12,8 +12,11 @@ fn mean_inverse(a: f32, b: f32, square: bool) -> f32 {
     return select(quotient, series, abs(x) < 0.03) / a;
 }
 
-// A value as a distance, by the length of its gradient; `farthest` where that is not known, and at most that.
-fn distance_by_slope(jet: vec4f, farthest: f32) -> f32 {
+// A value as a distance, which it is, or by the length of its gradient; `farthest` where that is not known, and at most that.
+fn distance_of(jet: vec4f, by_slope: bool, farthest: f32) -> f32 {
+    if !by_slope {
+        return select(farthest, clamp(jet.w, -farthest, farthest), is_finite(jet.w));
+    }
     let square = dot(jet.xyz, jet.xyz);
     var distance = jet.w * inverseSqrt(square);
     if !is_moderate(square) {
