@@ -66,10 +66,10 @@ def sections(rng):
     lattices = (("_square", 4, 0), ("_hexagonal", 0, 4), ("_real", 4, 1), ("_rhombic", -2, 1), ("_complex", 1 + 2j, -3 + 1j), ("_small", 2**-10, 2**-13), ("_double", 12, 8), ("_rational", 0, 0))
     for name, g2, g3 in lattices:
         some = disc(1.7, 30, rng) + around(0, rng, small)
-        yield "weierstrass_p_invariants" + name, "f(z) = weierstrass_p_invariants(z, {0}, {1})", weierstrass, [g2, g3], some
+        yield "weierstrass_p_invariants" + name.removeprefix("_square"), "f(z) = weierstrass_p_invariants(z, {0}, {1})", weierstrass, [g2, g3], some
         slope = lambda z, g2, g3: difference(lambda z: weierstrass(z, g2, g3), z)
         if name in ("_real", "_complex"):
-            yield "weierstrass_p_invariants_prime" + name, "f(z) = weierstrass_p_prime_invariants(z, {0}, {1})", slope, [g2, g3], some[:16]
+            yield "weierstrass_p_prime_invariants" + name.removeprefix("_real"), "f(z) = weierstrass_p_prime_invariants(z, {0}, {1})", slope, [g2, g3], some[:16]
     hurwitz = lambda s, a: mp.zeta(s, mp.re(a))
     right = strip((0, 12), (-20, 20), 24, rng) + strip((0.4, 0.6), (-80, 80), 6, rng) + [p for p in around(1, rng)] + [complex(x) for x in (0, 0.5, 2, 7, 25)]
     for name, a in (("", 0.25), ("_1", 1), ("_large", 30.5)):
@@ -80,7 +80,7 @@ def sections(rng):
     real = [complex(x) for x in (-20, -3, -0.9, -0.3, -1e-3, 1e-3, 0.2, 0.5, 0.7, 0.85, 0.95)]
     for k, (a, b, c) in enumerate(((0.5, 0.5, 1), (1, 2, 3), (-0.25, 0.75, 1.5), (-3, 4, 1))):
         f = lambda z, a, b, c: mp.hyp2f1(a, b, c, z)
-        yield f"hypergeometric_{k}", "f(z) = hypergeometric({0}, {1}, {2}, z)", f, [a, b, c], inside
+        yield f"hypergeometric_{k}".removesuffix("_0"), "f(z) = hypergeometric({0}, {1}, {2}, z)", f, [a, b, c], inside
         yield f"hypergeometric_{k}_real", "f(x) = hypergeometric({0}, {1}, {2}, x)", f, [a, b, c], real
 
 

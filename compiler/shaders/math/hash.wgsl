@@ -42,20 +42,27 @@ struct LatticeCell {
 /// 8 ≤ shift < 32. NaN where a coordinate is infinite or NaN. What corners have in common is computed once.
 /// Error: none.
 fn lattice_cell(x: f32, y: f32, z: f32, w: f32, shift: u32) -> LatticeCell {
-    let at = vec3f(x, y, z);
-    let sizes = bitcast<vec3u>(at) & vec3u(0x7fffffffu);
+    let largest = max(max(bitcast<u32>(x) & 0x7fffffffu, bitcast<u32>(y) & 0x7fffffffu), bitcast<u32>(z) & 0x7fffffffu);
     // below 2^23 the next number is the next integer, too
-    let near = (max(sizes.x, max(sizes.y, sizes.z)) < 0x4b000000u) & is_finite(w);
-    var lower = bitcast<vec3u>(vec3i(at));
-    var upper = lower + vec3u(1u);
+    let near = (largest < 0x4b000000u) & is_finite(w);
+    var x0 = bitcast<u32>(i32(x));
+    var y0 = bitcast<u32>(i32(y));
+    var z0 = bitcast<u32>(i32(z));
+    var x1 = x0 + 1u;
+    var y1 = y0 + 1u;
+    var z1 = z0 + 1u;
     if !near {
-        lower = vec3u(hash_coordinate(x), hash_coordinate(y), hash_coordinate(z));
-        upper = vec3u(hash_coordinate(x + 1.0), hash_coordinate(y + 1.0), hash_coordinate(z + 1.0));
+        x0 = hash_coordinate(x);
+        y0 = hash_coordinate(y);
+        z0 = hash_coordinate(z);
+        x1 = hash_coordinate(x + 1.0);
+        y1 = hash_coordinate(y + 1.0);
+        z1 = hash_coordinate(z + 1.0);
     }
     let inner = hash_word(hash_coordinate(w));
     let cell = LatticeCell(
-        lattice_face(lower, upper, hash_word(lower.z + inner), shift),
-        lattice_face(lower, upper, hash_word(upper.z + inner), shift),
+        lattice_face(x0, x1, y0, y1, hash_word(z0 + inner), shift),
+        lattice_face(x0, x1, y0, y1, hash_word(z1 + inner), shift),
     );
     if !near {
         if !(is_finite(x) && is_finite(y) && is_finite(z) && is_finite(w)) {
@@ -67,9 +74,13 @@ fn lattice_cell(x: f32, y: f32, z: f32, w: f32, shift: u32) -> LatticeCell {
 }
 
 /// The face of a cell at a word of the coordinate across.
-fn lattice_face(lower: vec3u, upper: vec3u, inner: u32, shift: u32) -> vec4f {
-    let low = hash_word(lower.y + inner);
-    let high = hash_word(upper.y + inner);
-    let corners = vec4u(hash_word(lower.x + low), hash_word(upper.x + low), hash_word(lower.x + high), hash_word(upper.x + high));
-    return vec4f(corners >> vec4u(shift));
+fn lattice_face(x0: u32, x1: u32, y0: u32, y1: u32, inner: u32, shift: u32) -> vec4f {
+    let low = hash_word(y0 + inner);
+    let high = hash_word(y1 + inner);
+    return vec4f(
+        f32(hash_word(x0 + low) >> shift),
+        f32(hash_word(x1 + low) >> shift),
+        f32(hash_word(x0 + high) >> shift),
+        f32(hash_word(x1 + high) >> shift),
+    );
 }

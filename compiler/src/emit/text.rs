@@ -133,7 +133,9 @@ pub(super) fn functions(
     let head = header(emission, parts, &built.functions, &signatures);
     let mut text = comment(&head, "//");
     text.push_str(match target {
-        Target::C => "\n#include <math.h>\n#include <stdbool.h>\n#include <stdint.h>\n",
+        Target::C => {
+            "\n#include <math.h>\n#include <stdbool.h>\n#include <stdint.h>\n#include <stdlib.h>\n"
+        }
         Target::Msl => "\n#include <metal_stdlib>\nusing namespace metal;\n",
         _ => "",
     });

@@ -208,8 +208,9 @@ fn drawn(
     let expected = runner.expected(&job.frame)?;
     if expected > left {
         let seconds = expected.as_secs_f64();
+        let digits = usize::from(seconds < 10.0);
         return Err(Trouble::Choice(format!(
-            "not drawn: a picture would take about {seconds:.0} s, more than the budget has left"
+            "not drawn: a picture would take about {seconds:.digits$} s, more than the budget has left"
         )));
     }
     let mut rows = Vec::new();

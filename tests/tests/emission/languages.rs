@@ -69,17 +69,17 @@ fn functions() -> Vec<String> {
             // of these only the value can be had, which the accuracy suites emit
             continue;
         }
-        let arguments = |names: [&str; 3]| names[..row.typing.arity().min(3)].join(", ");
+        let arguments = |names: [&str; 4]| names[..row.typing.arity().min(4)].join(", ");
         if row.real.is_some() || row.is_defined(false) {
             out.push(format!(
                 "f(x, y) = {name}({}) + y",
-                arguments(["x", "y", "x + y"])
+                arguments(["x", "y", "x + y", "x y"])
             ));
         }
         if row.complex.is_some() || row.is_defined(true) {
             out.push(format!(
                 "f(z) = {name}({})",
-                arguments(["z", "z^2", "z + 1"])
+                arguments(["z", "z^2", "z + 1", "z/2"])
             ));
         }
     }
