@@ -97,7 +97,7 @@ fn what_is_nowhere_a_number_is_measured_all_the_same() {
         flip(&found, "default") < 0.05,
         "the pattern of what is undefined"
     );
-    assert_eq!(found["advice"]["unseen"].is_number(), true);
+    assert!(found["advice"]["unseen"].is_number());
 }
 
 #[test]

@@ -512,9 +512,12 @@ fn walk<'b>(block: &'b Block, path: &mut Vec<usize>, see: &mut dyn FnMut(&'b Sta
     }
 }
 
+/// Where a variable is used: the blocks around it, and the statement's address if it starts the variable.
+type Use = (Vec<usize>, Option<usize>);
+
 /// Statements that give a variable a constant first value, outside of loops and for all that uses it.
 fn starts(function: &Function) -> Vec<usize> {
-    let mut seen: HashMap<Handle<LocalVariable>, Vec<(Vec<usize>, Option<usize>)>> = HashMap::new();
+    let mut seen: HashMap<Handle<LocalVariable>, Vec<Use>> = HashMap::new();
     walk(&function.body, &mut Vec::new(), &mut |statement, path| {
         let mut note = |pointer, start| {
             if let Some(variable) = variable_of(function, pointer) {

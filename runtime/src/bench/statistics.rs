@@ -123,11 +123,11 @@ mod tests {
     #[test]
     fn a_slower_machine_is_no_slower_program() {
         let (base, now) = (times(0.01, 3), times(0.02, 4));
-        let found = ratio([&base, &vec![1.0; 25]], [&now, &vec![2.0; 25]]).unwrap();
+        let found = ratio([&base, &[1.0; 25]], [&now, &[2.0; 25]]).unwrap();
         assert!(found.range[0] < 1.0 && found.range[1] > 1.0, "{found:?}");
-        let few = ratio([&base[..3], &[1.0; 3]], [&now, &vec![1.0; 25]]).unwrap();
+        let few = ratio([&base[..3], &[1.0; 3]], [&now, &[1.0; 25]]).unwrap();
         assert_eq!(few.range, [0.0, f64::INFINITY]);
-        assert!(ratio([&[], &[]], [&now, &vec![1.0; 25]]).is_none());
+        assert!(ratio([&[], &[]], [&now, &[1.0; 25]]).is_none());
     }
 
     #[test]

@@ -37,6 +37,9 @@ const TRUTH: f64 = 0.4;
 const PICTURES: f64 = 0.3;
 const TIMES: f64 = 0.3;
 
+/// Makes a scene's shader for settings and a tier; what is wrong in words.
+pub type MakeScene<'a> = dyn Fn(&[SettingValue], Tier) -> Result<SceneModule, String> + 'a;
+
 /// What is to be measured.
 pub struct Job<'a> {
     /// The adapter.
@@ -46,7 +49,7 @@ pub struct Job<'a> {
     /// The choices, the default first.
     pub choices: &'a [Choice],
     /// Makes the scene's shader; what is wrong in words.
-    pub scene: &'a dyn Fn(&[SettingValue], Tier) -> Result<SceneModule, String>,
+    pub scene: &'a MakeScene<'a>,
     /// How long all may take.
     pub budget: Duration,
 }

@@ -8,6 +8,9 @@ use super::error::{Format, OVERFLOW};
 use super::evaluators::{Machine, Point};
 use super::subjects::formula;
 
+/// Evaluates a formula at points: a row of numbers for each; what is wrong in words.
+pub type Run<'a> = dyn FnMut(&Formula, What, &[Point]) -> Result<Vec<Vec<f64>>, String> + 'a;
+
 /// A formula with its rows.
 #[derive(Debug)]
 pub struct Table {
@@ -234,11 +237,7 @@ impl Table {
     ///
     /// # Errors
     /// It cannot be evaluated; in words.
-    pub fn measure_by(
-        &self,
-        format: Format,
-        run: &mut dyn FnMut(&Formula, What, &[Point]) -> Result<Vec<Vec<f64>>, String>,
-    ) -> Result<Factors, String> {
+    pub fn measure_by(&self, format: Format, run: &mut Run) -> Result<Factors, String> {
         let (formula, params) = self.formula();
         let arity = self
             .place("f")

@@ -20,9 +20,11 @@ use crate::program;
 /// Prints a module, parses the text, and compares function by function.
 fn check_module(name: &str, module: &Module) -> Result<(), String> {
     let validate = |module: &Module| {
-        Validator::new(ValidationFlags::all(), Capabilities::default()).validate(module)
+        Validator::new(ValidationFlags::all(), Capabilities::default())
+            .validate(module)
+            .map_err(|e| format!("{e:?}"))
     };
-    let info = validate(module).map_err(|e| format!("{e:?}"))?;
+    let info = validate(module)?;
     let wanted: Vec<Handle<Function>> = module.functions.iter().map(|(h, _)| h).collect();
     let printed = print(module, &info, Dialect::Wgsl, &wanted)?;
     let text = printed.text();
@@ -32,7 +34,7 @@ fn check_module(name: &str, module: &Module) -> Result<(), String> {
     let mut parsed = naga::front::wgsl::parse_str(&text)
         .map_err(|e| format!("{}\n{text}", e.emit_to_string(&text)))?;
     restore_operators(&mut parsed);
-    let parsed_info = validate(&parsed).map_err(|e| format!("{e:?}\n{text}"))?;
+    let parsed_info = validate(&parsed).map_err(|e| format!("{e}\n{text}"))?;
     let names: HashMap<Handle<Function>, String> = printed
         .functions
         .iter()
