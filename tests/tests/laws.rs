@@ -1,6 +1,9 @@
 //! Laws that are known beforehand, found again in pictures of the executor.
 
-use pullback_runtime::executor::Arithmetic;
+use pullback_compiler::What;
+use pullback_compiler::lower::Precision;
+use pullback_runtime::evaluate::Surroundings;
+use pullback_runtime::executor::{Arithmetic, Rows};
 use pullback_runtime::{Pipeline, Size};
 use pullback_tests::stills::{Machine, Still};
 
@@ -63,6 +66,30 @@ fn a_sum_at_midpoints_of_what_fades_at_both_ends_is_better_than_any_order() {
     );
 }
 
+/// How many abscissae of the columns a tier tells apart, evaluated as a scene's formula is.
+fn distinct(still: &Still, precision: Precision) -> usize {
+    let module = still
+        .program
+        .eval_module(0, What::Value, precision)
+        .unwrap();
+    let rows = Rows::new(&module, Arithmetic::Ieee32).unwrap();
+    let pixel = still.view.height / f64::from(still.size.height);
+    let middle = 0.5 * f64::from(still.size.width) - 0.5;
+    let column = |k: u32| [still.view.center[0] + (f64::from(k) - middle) * pixel, 0.0];
+    let places: Vec<f64> = (0..still.size.width).flat_map(column).collect();
+    let surroundings = Surroundings {
+        params: &[],
+        time: 0.0,
+        pixel,
+    };
+    let mut values = Vec::new();
+    let count = still.size.width as usize;
+    rows.eval(surroundings, count, &places, &mut values)
+        .unwrap();
+    values.dedup();
+    values.len()
+}
+
 #[test]
 fn positions_of_single_precision_limit_the_zoom_where_they_must() {
     // around 1 a picture of 1920 columns and a width of 1e-4 has 1,259 numbers of binary32 to choose from
@@ -78,16 +105,12 @@ fn positions_of_single_precision_limit_the_zoom_where_they_must() {
         },
         1,
     );
-    let pixel = still.view.height / 1080.0;
-    let mut columns: Vec<u32> = (0..1920)
-        .map(|k| ((1.0 + (f64::from(k) - 959.5) * pixel) as f32).to_bits())
-        .collect();
-    columns.dedup();
-    assert!(
-        (columns.len() as f64 - (below + above)).abs() <= 2.0,
-        "{}",
-        columns.len()
-    );
+    let columns = |precision| distinct(&still, precision);
+    let single = columns(Precision::Accurate) as f64;
+    assert!((single - (below + above)).abs() <= 2.0, "{single}");
+    // pairs and doubles tell all columns apart
+    assert_eq!(columns(Precision::Extended), 1920);
+    assert_eq!(columns(Precision::Double), 1920);
     let frame = |height: f64| pullback_runtime::Frame {
         view: pullback_runtime::View {
             center: [1.0, 0.0],
