@@ -88,7 +88,7 @@ struct Layer {
 struct Way {
     ray: Ray,
     extent: f32,
-    count: u32,
+    count: f32,
     phase: f32,  // in 0..1, of the first border
 }
 
@@ -121,9 +121,9 @@ fn sight_near(pixel: vec2f, camera: Camera, center: vec3f, half_size: vec3f) -> 
 fn sky_at(direction: vec3f, background: vec3f) -> vec3f { return vec3f(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f { return vec4f(); }
-fn absorbed_part(x: f32) -> f32 { return 0.0; }
-fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
-fn part_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
+fn unkept_part(x: f32, kept: f32) -> f32 { return 0.0; }
+fn stretch_at(k: f32, count: f32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
+fn part_at(k: f32, count: f32, phase: f32, extent: f32) -> vec2f { return vec2f(); }
 fn sample_phase(pixel: vec2f) -> f32 { return 0.0; }
 fn displayed(radiance: vec3f, exposure: f32, tone: u32, gamma: f32) -> vec3f { return vec3f(); }
 
@@ -174,7 +174,7 @@ fn column_of(way: Way) -> vec2f {
         }
     }
     var column = 0.0;
-    for (var k = view.zero; k < way.count; k++) {
+    for (var k = f32(view.zero); k < way.count; k += 1.0) {
         let part = part_at(k, way.count, way.phase, way.extent);
         let middle = way.ray.origin + 0.5 * (part.x + part.y) * way.ray.direction;
         column += (part.y - part.x) * density_of(field(middle));
@@ -185,7 +185,7 @@ fn column_of(way: Way) -> vec2f {
 // A way of this extent, in as many stretches as the diagonal's number says.
 fn way_of(ray: Ray, extent: f32, steps: u32, phase: f32) -> Way {
     let diagonal = 2.0 * length(settings.box);
-    let count = max(u32(ceil(min(extent / diagonal, 1.0) * f32(steps))), 1u);
+    let count = max(ceil(min(extent / diagonal, 1.0) * f32(steps)), 1.0);
     return Way(ray, extent, count, mix(0.5, phase, settings.jitter));
 }
 
@@ -202,23 +202,25 @@ fn extent_to_light(p: vec3f, light: vec3f) -> f32 {
     return max(box_span(level, light, settings.center, settings.box).y, 0.0);
 }
 
-fn absorbed(depth: vec3f) -> vec3f {
-    return vec3f(absorbed_part(depth.x), absorbed_part(depth.y), absorbed_part(depth.z));
+// The mean of exp(-s) for s evenly between 0 and x > 0, of which exp(-x) is `kept`.
+fn mean_kept(x: vec3f, kept: vec3f) -> vec3f {
+    return vec3f(unkept_part(x.x, kept.x), unkept_part(x.y, kept.y), unkept_part(x.z, kept.z)) / x;
 }
 
 // The mean of exp(-x) for x evenly between a and b, both >= 0.
 fn mean_transmittance(a: vec3f, b: vec3f) -> vec3f {
     let x = max(abs(b - a), vec3f(1e-20));
-    return exp(-min(min(a, b), vec3f(DEEPEST))) * absorbed(x) / x;
+    return exp(-min(min(a, b), vec3f(DEEPEST))) * mean_kept(x, exp(-x));
 }
 
 // What a stretch adds behind what has been seen, with the columns x of itself, y and z from its ends to the light. It is
 // uniform, and the light's optical depth changes evenly along it: in a uniform medium that is exact for any length.
 fn seen_behind(seen: Scattered, columns: vec3f, cloud: Cloud) -> Scattered {
     let depth = cloud.extinction * columns.x;
+    let kept = exp(-min(depth, vec3f(DEEPEST)));
     let direct = cloud.direct * mean_transmittance(cloud.extinction * columns.y, cloud.extinction * columns.z + depth);
-    let scattered = cloud.scattering * columns.x * (direct + cloud.ambient * mean_transmittance(vec3f(), depth));
-    return Scattered(seen.light + seen.through * scattered, seen.through * exp(-min(depth, vec3f(DEEPEST))));
+    let scattered = cloud.scattering * columns.x * (direct + cloud.ambient * mean_kept(max(depth, vec3f(1e-20)), kept));
+    return Scattered(seen.light + seen.through * scattered, seen.through * kept);
 }
 
 fn cloud_on(ray: Ray, light: vec3f) -> Cloud {
@@ -244,19 +246,17 @@ fn scattered_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Scattered {
     let phase = sample_phase(pixel);
     let way = way_of(ray, span.y - start, settings.steps, phase);
     var seen = Scattered(vec3f(), vec3f(1.0));
-    for (var k = view.zero; (k <= way.count) & (greatest(seen.through) > least); k++) {
+    for (var k = f32(view.zero); (k <= way.count) & (greatest(seen.through) > least); k += 1.0) {
         let stretch = stretch_at(k, way.count, way.phase, way.extent);
         let entry = ray.origin + (start + stretch.x) * ray.direction;
         let length = stretch.y - stretch.x;
         let end = entry + length * ray.direction;
         let middle = entry + 0.5 * length * ray.direction;
-        let extents = vec3f(extent_to_light(entry, light), extent_to_light(middle, light), extent_to_light(end, light));
-        // as in a uniform medium, which is right to the second order in any: the column to the light changes as that way's extent
-        let shares = extents.xz / max(extents.y, 1e-20);
-        let turn = fract(phase + GOLDEN * f32(k));
+        let turn = fract(phase + GOLDEN * k);
         // one place that evaluates the field: on the stretch, and from its middle to the light; in closed form from both its ends
-        var part = Way(Ray(entry, ray.direction), length, 1u, 0.5);
+        var part = Way(Ray(entry, ray.direction), length, 1.0, 0.5);
         var columns = vec3f();
+        var extents = vec3f();
         for (var j = view.zero; j < 3u; j++) {
             let column = column_of(part);
             if j == 0u {
@@ -264,13 +264,14 @@ fn scattered_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Scattered {
                 if column.x <= 0.0 {
                     break;
                 }
+                extents = vec3f(extent_to_light(entry, light), extent_to_light(middle, light), extent_to_light(end, light));
                 part = way_of(Ray(middle, light), extents.y, settings.light_steps, turn);
                 if column.y > 0.0 {
                     part = way_of(Ray(entry, light), extents.x, settings.light_steps, turn);
                 }
             } else if column.y == 0.0 {
-                columns.y = column.x * shares.x;
-                columns.z = column.x * shares.y;
+                // as in a uniform medium, which is right to the second order in any: the column changes as that way's extent
+                columns = vec3f(columns.x, column.x * extents.xz / max(extents.y, 1e-20));
                 break;
             } else if j == 1u {
                 columns.y = column.x;
@@ -279,7 +280,9 @@ fn scattered_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Scattered {
                 columns.z = column.x;
             }
         }
-        seen = seen_behind(seen, columns, cloud);
+        if columns.x > 0.0 {
+            seen = seen_behind(seen, columns, cloud);
+        }
     }
     return seen;
 }

@@ -77,6 +77,7 @@ struct Settings {
 @group(0) @binding(1) var<uniform> params: array<vec4f, 16>;
 @group(0) @binding(2) var<uniform> settings: Settings;
 
+fn field(p: vec3f) -> f32 { return 0.0; }
 // f and df/dt at o + t d
 fn field_ray(o: vec3f, d: vec3f, t: f32) -> vec2f { return vec2f(); }
 // (∂f/∂x, ∂f/∂y, ∂f/∂z, f)
@@ -156,7 +157,7 @@ const NO_HIT: Hit = Hit(0.0, false, false);
 struct Path {
     ray: Ray,
     extent: f32,  // none where the ray misses the box
-    count: u32,   // steps of a march
+    count: f32,   // steps of a march
 }
 
 // `span` is from `box_span`; `steps` are for the diagonal of the box.
@@ -177,117 +178,148 @@ fn opposite(a: Sample, b: Sample) -> bool {
     return (a.value < 0.0) != (b.value < 0.0);
 }
 
-// What a march does with its next sample: it walks on, or it searches a step that may hold the surface for where f ceases to
-// be defined, for an extremum, for a root.
-const WALK: u32 = 0u;
-const EDGE: u32 = 1u;
-const DIP: u32 = 2u;
-const CROSSING: u32 = 3u;
-// The search has ended with a hit.
-const FOUND: u32 = 4u;
+// What a search within a step looks for: where f ceases to be defined, which side of a sample the extremum is on, slopes at
+// the ends of its step, the extremum, a root.
+const EDGE: u32 = 0u;
+const TURN: u32 = 1u;
+const ENDS: u32 = 2u;
+const DIP: u32 = 3u;
+const CROSSING: u32 = 4u;
+// It has ended, without a hit or with one.
+const NOTHING: u32 = 5u;
+const FOUND: u32 = 6u;
 
-// A search within a step, between two samples: of the last valid one and a bad place; of two around an extremum; of two
-// around a root. Where it ends without a hit it is a walk again.
+// A search between two samples: of the last valid one and a bad place; of the neighbours of one that is near to the level; of
+// two around an extremum; of two around a root.
 struct Search {
     mode: u32,
     count: u32,        // samples that it has taken
     t: f32,            // where the next one is wanted; of a hit, where that is
-    low: Sample,       // a bad place, or a sample on the near side; of a root, the newest
-    high: Sample,      // a sample on the far side; of a root, one of the other sign
-    third: Sample,     // the valid end of the step, the sample nearest to the level, or the one that was replaced
+    low: Sample,       // a bad place, or a sample on the near side
+    high: Sample,      // a sample on the far side
+    third: Sample,     // the valid end of the step, or the sample nearest to the level
     low_weight: f32,   // of the Illinois method
     high_weight: f32,
-    size: f32,         // greatest |f - level| before a search for a root
+    size: f32,         // greatest |f - level| before a search for an extremum or a root
+    first: f32,        // width of the first bracket of a root
     touching: bool,    // of a hit
 }
 
-// The first hit on a path. The inner loop only walks, so that rays side by side walk together to where each has
-// something to search, and then search together. Drivers copy a function to where it is called, and f may be long:
-// samples are taken in this one place.
+// The end of what has been walked over, where f is |f - level| of the side that the ray is on.
+struct Walk {
+    k: f32,       // number of the next sample
+    side: f32,    // 1 or -1; 0 where f is undefined, or nothing has been walked over
+    value: f32,   // f at the last sample
+    older: f32,   // and at the one before it
+}
+
+// The first hit on a path. The inner loop only walks, by values alone, to where f changes its sign or, near the level,
+// comes no nearer, so that rays side by side walk together to where each has something to search, and then search together,
+// with slopes. Drivers copy a function to where it is called, and f may be long: each is called in one place.
 fn march(path: Path) -> Hit {
     if !(path.extent > 0.0) {
         return NO_HIT;
     }
-    let step = path.extent / f32(path.count);
-    var a: Sample;
-    var b: Sample;
-    var search: Search;
-    var t = 0.0;
-    var k = 0u;
-    loop {
-        var found: Sample;
-        var promising = false;
+    let step = path.extent / path.count;
+    let stride = step * path.ray.direction;
+    var walk: Walk;
+    while walk.k <= path.count {
+        var value: f32;
         loop {
-            found = sample_ray(path.ray, t);
-            if search.mode != WALK {
+            value = field(path.ray.origin + walk.k * stride) - settings.level;
+            let ahead = walk.side * value;
+            if !(ahead > 0.0) | (walk.k >= path.count) {
                 break;
             }
-            a = b;
-            b = found;
-            promising = k > 0u && may_hit(a, b);
-            k++;
-            if promising || k > path.count {
-                break;
+            // seldom true, and so not computed together with the rest
+            if ahead >= walk.value {
+                if turns(walk, ahead) {
+                    break;
+                }
             }
-            t = f32(k) * step;
+            walk = Walk(walk.k + 1.0, walk.side, ahead, walk.value);
         }
-        if search.mode != WALK {
-            search = searched(search, a, b, found);
-        } else if promising {
-            search = search_step(a, b);
+        var search = search_step(walk, value, step, walk.k >= path.count);
+        while search.mode < NOTHING {
+            search = searched(search, sample_ray(path.ray, search.t));
         }
         if search.mode == FOUND {
             return Hit(search.t, true, search.touching);
         }
-        if search.mode == WALK && k > path.count {
-            return NO_HIT;
-        }
-        t = select(search.t, f32(k) * step, search.mode == WALK);
+        walk = walk_on(walk, value);
     }
     return NO_HIT;
 }
 
-// Whether the step from a to b may hold the surface.
-fn may_hit(a: Sample, b: Sample) -> bool {
-    if a.valid && b.valid {
-        return opposite(a, b) || may_dip(a, b);
-    }
-    return a.valid != b.valid;
+// Whether f comes no nearer to the level after the last sample, and from there is no farther from it than from one of its
+// neighbours. An extremum between them may then be beyond the level: a parabola goes an eighth as far.
+fn turns(walk: Walk, ahead: f32) -> bool {
+    return ahead >= walk.value && walk.value <= walk.older && is_close(walk, ahead);
 }
 
-// A search between two samples of which `may_hit` is true.
-fn search_step(a: Sample, b: Sample) -> Search {
-    if !a.valid {
-        return edge_place(Search(EDGE, 0u, 0.0, a, b, b, 1.0, 1.0, 0.0, false));
-    }
-    if !b.valid {
-        return edge_place(Search(EDGE, 0u, 0.0, b, a, a, 1.0, 1.0, 0.0, false));
-    }
-    if opposite(a, b) {
-        return search_crossing(a, b);
-    }
-    var nearest = a;
-    if abs(b.value) < abs(a.value) {
-        nearest = b;
-    }
-    return dip_place(Search(DIP, 0u, 0.0, a, b, nearest, 1.0, 1.0, 0.0, false));
+fn is_close(walk: Walk, ahead: f32) -> bool {
+    return walk.value <= max(ahead, walk.older) - walk.value;
 }
 
-// A search with the sample that it wanted, in the step from a to b.
-fn searched(search: Search, a: Sample, b: Sample, found: Sample) -> Search {
-    if search.mode == EDGE {
-        return searched_edge(search, found);
+// A walk over a sample in whose step nothing has been found.
+fn walk_on(walk: Walk, value: f32) -> Walk {
+    if is_nan(value) {
+        return Walk(walk.k + 1.0, 0.0, 0.0, 0.0);
     }
-    if search.mode == DIP {
-        return searched_dip(search, a, b, found);
+    let side = select(1.0, -1.0, value < 0.0);
+    return Walk(walk.k + 1.0, side, abs(value), select(abs(value), walk.value, side == walk.side));
+}
+
+// What is to be searched where a walk ends.
+fn search_step(walk: Walk, value: f32, step: f32, last: bool) -> Search {
+    let t = walk.k * step;
+    let far = Sample(t, clamp(value, -LARGEST, LARGEST), 0.0, !is_nan(value));
+    let near = Sample(t - step, clamp(walk.side * walk.value, -LARGEST, LARGEST), 0.0, walk.side != 0.0);
+    if walk.k == 0.0 || !(near.valid || far.valid) {
+        return nothing(Search());
     }
-    return searched_crossing(search, found);
+    if !near.valid {
+        return edge_place(Search(EDGE, 0u, 0.0, near, far, far, 1.0, 1.0, 0.0, 0.0, false));
+    }
+    if !far.valid {
+        return edge_place(Search(EDGE, 0u, 0.0, far, near, near, 1.0, 1.0, 0.0, 0.0, false));
+    }
+    if opposite(near, far) {
+        return search_crossing(near, far, 0.0);
+    }
+    let ahead = walk.side * value;
+    if turns(walk, ahead) {
+        return search_turn(near, max(near.t - step, 0.0), t);
+    }
+    if last && ahead <= walk.value - ahead {
+        return search_turn(far, near.t, t);
+    }
+    return nothing(Search());
+}
+
+// On which side of a sample |f - level| is least, between two places.
+fn search_turn(middle: Sample, low: f32, high: f32) -> Search {
+    var search = Search(TURN, 0u, middle.t, middle, middle, middle, 1.0, 1.0, 0.0, 0.0, false);
+    search.low.t = low;
+    search.high.t = high;
+    return search;
+}
+
+// A search with the sample that it wanted.
+fn searched(search: Search, found: Sample) -> Search {
+    switch search.mode {
+        case EDGE: { return searched_edge(search, found); }
+        case TURN: { return searched_turn(search, found); }
+        case ENDS: { return searched_end(search, found); }
+        case DIP: { return searched_dip(search, found); }
+        default: { return searched_crossing(search, found); }
+    }
 }
 
 // The end of a search without a hit.
 fn nothing(search: Search) -> Search {
     var next = search;
-    next.mode = WALK;
+    next.mode = NOTHING;
     return next;
 }
 
@@ -310,9 +342,45 @@ fn searched_edge(search: Search, found: Sample) -> Search {
         return edge_place(next);
     }
     if opposite(next.third, next.high) {
-        return search_crossing(next.third, next.high);
+        if next.third.t > next.high.t {
+            return search_crossing(next.high, next.third, 0.0);
+        }
+        return search_crossing(next.third, next.high, 0.0);
     }
     return nothing(next);
+}
+
+// From a sample that is near to the level to the other end of the step that has the extremum, if there is one.
+fn searched_turn(search: Search, found: Sample) -> Search {
+    var next = search;
+    let nearer_ahead = (found.value < 0.0) == (found.slope > 0.0);
+    next.mode = ENDS;
+    next.t = select(search.low.t, search.high.t, nearer_ahead);
+    next.low = found;
+    next.high = found;
+    if !found.valid || next.t == found.t {
+        return nothing(next);
+    }
+    return next;
+}
+
+fn searched_end(search: Search, found: Sample) -> Search {
+    var next = search;
+    if found.t < search.low.t {
+        next.low = found;
+    } else {
+        next.high = found;
+    }
+    if !may_dip(next.low, next.high) {
+        return nothing(next);
+    }
+    next.mode = DIP;
+    next.size = max(abs(next.low.value), abs(next.high.value));
+    next.third = next.low;
+    if abs(next.high.value) < abs(next.low.value) {
+        next.third = next.high;
+    }
+    return dip_place(next);
 }
 
 // Whether a step whose ends have the same sign may hold two crossings: both slopes lead towards the level, and the
@@ -345,18 +413,18 @@ fn dip_place(search: Search) -> Search {
     return next;
 }
 
-fn searched_dip(search: Search, a: Sample, b: Sample, found: Sample) -> Search {
+fn searched_dip(search: Search, found: Sample) -> Search {
     if !found.valid {
         return nothing(search);
     }
-    if opposite(a, found) {
-        return search_crossing(a, found);
+    if opposite(search.low, found) {
+        return search_crossing(search.low, found, search.size);
     }
     var next = search;
     if abs(found.value) <= abs(next.third.value) {
         next.third = found;
     }
-    if (found.slope < 0.0) == (a.slope < 0.0) {
+    if (found.slope < 0.0) == (search.low.slope < 0.0) {
         next.low = found;
         next.low_weight = 1.0;
         next.high_weight *= 0.5;
@@ -370,8 +438,7 @@ fn searched_dip(search: Search, a: Sample, b: Sample, found: Sample) -> Search {
         return dip_place(next);
     }
     // Even roots: the extremum equals the level to rounding.
-    let size = max(abs(a.value), abs(b.value));
-    if abs(next.third.value) <= 3e-7 * size {
+    if abs(next.third.value) <= 3e-7 * search.size {
         next.mode = FOUND;
         next.t = next.third.t;
         next.touching = true;
@@ -380,33 +447,13 @@ fn searched_dip(search: Search, a: Sample, b: Sample, found: Sample) -> Search {
     return nothing(next);
 }
 
-// Root between two samples of opposite sign, to the resolution of f32, by Chandrupatla's method (Adv. Eng. Softw.
-// 28, 1997): inverse quadratic interpolation where it is safe, bisection elsewhere. A sign change over which |f|
-// does not shrink with the bracket is a pole or a jump and not found.
-fn search_crossing(a: Sample, b: Sample) -> Search {
-    let size = max(abs(a.value), abs(b.value));
-    let start = Search(CROSSING, 0u, 0.0, b, a, a, 1.0, 1.0, size, false);
-    return crossing_place(start, b.value / (b.value - a.value));
-}
-
-// The next sample at a part of the way from the newest one to that of the other sign, or the end.
-fn crossing_place(search: Search, part: f32) -> Search {
-    var next = search;
-    let f1 = search.low.value;
-    let f2 = search.high.value;
-    let t1 = search.low.t;
-    let t2 = search.high.t;
-    let width = abs(t2 - t1);
-    let tolerance = 2.4e-7 * max(abs(t1), abs(t2)) + 1e-30;
-    if search.count >= 48u || f1 == 0.0 || width <= 2.0 * tolerance {
-        let after = select(max(abs(f1), abs(f2)), 0.0, f1 == 0.0);
-        next.mode = select(WALK, FOUND, after < 0.25 * search.size);
-        next.t = select(t2, t1, abs(f1) <= abs(f2));
-        return next;
-    }
-    let margin = min(tolerance / width, 0.5);
-    next.t = t1 + clamp(part, margin, 1.0 - margin) * (t2 - t1);
-    return next;
+// Root between two samples of opposite sign, by Newton's method within the bracket of their signs, and bisection where that
+// is slow. A sign change over which |f| does not shrink with the bracket is a pole or a jump and not found. `larger` is a
+// value of |f - level| beside them.
+fn search_crossing(a: Sample, b: Sample, larger: f32) -> Search {
+    let size = max(larger, max(abs(a.value), abs(b.value)));
+    let t = mix(a.t, b.t, clamp(a.value / (a.value - b.value), 0.001, 0.999));
+    return Search(CROSSING, 0u, t, a, b, a, 1.0, 1.0, size, b.t - a.t, false);
 }
 
 fn searched_crossing(search: Search, found: Sample) -> Search {
@@ -414,33 +461,51 @@ fn searched_crossing(search: Search, found: Sample) -> Search {
         return nothing(search);
     }
     var next = search;
-    if (found.value < 0.0) == (search.low.value < 0.0) {
-        next.third = search.low;
+    let on_near_side = !opposite(search.low, found);
+    if on_near_side {
+        next.low = found;
     } else {
-        next.third = search.high;
-        next.high = search.low;
+        next.high = found;
     }
-    next.low = found;
     next.count++;
-    return crossing_place(next, next_part(found.t, found.value, next.high.t, next.high.value, next.third.t, next.third.value));
+    let before = search.high.t - search.low.t;
+    let width = next.high.t - next.low.t;
+    let place = found.t - found.value / select(found.slope, 1e-37, found.slope == 0.0);
+    let inside = (place >= next.low.t) & (place <= next.high.t);
+    let shrinks = abs(found.value) < 0.25 * search.size;
+    // so near that what is left is the square of a small part of the first bracket
+    if shrinks & inside & (abs(place - found.t) <= 0.001 * search.first) {
+        next.mode = FOUND;
+        next.t = place;
+        return next;
+    }
+    let tolerance = 2.4e-7 * max(abs(next.low.t), abs(next.high.t)) + 1e-30;
+    if next.count >= 48u || width <= 2.0 * tolerance {
+        return crossing_end(next);
+    }
+    let least = min(abs(search.low.value), abs(search.high.value));
+    let fast = (width <= 0.5 * before) | (abs(found.value) <= 0.25 * least);
+    // a little further, so that the bracket closes
+    let beyond = place + select(-tolerance, tolerance, on_near_side);
+    let within = (beyond > next.low.t) & (beyond < next.high.t);
+    next.t = select(0.5 * (next.low.t + next.high.t), beyond, fast & within);
+    return next;
 }
 
-// Where to look next between t1 (0) and t2 (1), given a third point with the sign of t1 or beyond t2.
-fn next_part(t1: f32, f1: f32, t2: f32, f2: f32, t3: f32, f3: f32) -> f32 {
-    if f1 == f2 || f3 == f2 || f3 == f1 || t3 == t2 || t1 == t2 {
-        return 0.5;
-    }
-    let xi = (t1 - t2) / (t3 - t2);
-    let phi = (f1 - f2) / (f3 - f2);
-    if phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi {
-        return f1 / (f2 - f1) * (f3 / (f2 - f3)) + (t3 - t1) / (t2 - t1) * (f1 / (f3 - f1)) * (f2 / (f3 - f2));
-    }
-    return 0.5;
+// The end that is nearer to the level, unless that is a pole or a jump.
+fn crossing_end(search: Search) -> Search {
+    var next = search;
+    let low = abs(search.low.value);
+    let high = abs(search.high.value);
+    let after = select(max(low, high), 0.0, min(low, high) == 0.0);
+    next.mode = select(NOTHING, FOUND, after < 0.25 * search.size);
+    next.t = select(search.high.t, search.low.t, low <= high);
+    return next;
 }
 
-fn step_count(extent: f32, steps: u32) -> u32 {
+fn step_count(extent: f32, steps: u32) -> f32 {
     let diagonal = 2.0 * length(settings.box);
-    return clamp(u32(ceil(extent / max(diagonal, 1e-20) * f32(steps))), 2u, max(steps, 2u));
+    return clamp(ceil(extent / max(diagonal, 1e-20) * f32(steps)), 2.0, max(f32(steps), 2.0));
 }
 
 // ---- Light ---------------------------------------------------------------------------------------------------
@@ -472,7 +537,7 @@ struct Spot {
 // Where a hit's surface is looked at. Where the ray only touches the level the gradient vanishes; just before, it has the
 // right direction.
 fn spot_point(path: Path, hit: Hit) -> vec3f {
-    let step = path.extent / f32(path.count);
+    let step = path.extent / path.count;
     let t = hit.t - select(0.0, 0.02 * step, hit.touching);
     return path.ray.origin + t * path.ray.direction;
 }
@@ -734,11 +799,13 @@ fn shade(pixel: vec2f) -> vec4f {
     }
     let base = select(nearest_in_box(ground_point), spot_point(seen, hit), hit.found);
     let light = look_at_base(base, ray.direction, hit, ground > 0.0);
-    var colour = sky_behind(ray.direction);
+    var colour: vec4f;
     if hit.found {
         colour = vec4f(surface_colour(light.spot, ray.direction, light.closed), 1.0);
     } else if ground > 0.0 {
         colour = vec4f(lit_ground(ground_point, light.jet, ray.direction, shadowed), 1.0);
+    } else {
+        colour = sky_behind(ray.direction);
     }
     colour = over_box(colour, sight, span, hit.found, pixel);
     return vec4f(clamp(colour.rgb, vec3f(0.0), vec3f(1.0)), colour.a);

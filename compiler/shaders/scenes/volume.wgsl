@@ -114,7 +114,7 @@ struct Layer {
 
 struct Stretches {
     extent: f32,
-    count: u32,
+    count: f32,
     phase: f32,
 }
 
@@ -139,7 +139,7 @@ fn matter_of(jet: vec4f, medium: Medium) -> Matter { return Matter(); }
 fn seen_nothing() -> Seen { return Seen(); }
 fn medium_of(gas: Gas, half_size: vec3f, light: vec3f) -> Medium { return Medium(); }
 fn stretches_of(extent: f32, half_size: vec3f, steps: u32, jitter: f32, pixel: vec2f) -> Stretches { return Stretches(); }
-fn stretch_of(k: u32, stretches: Stretches) -> vec2f { return vec2f(); }
+fn stretch_of(k: f32, stretches: Stretches) -> vec2f { return vec2f(); }
 fn gas_over(seen: Seen, behind: vec4f, gas: Gas) -> vec4f { return vec4f(); }
 fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f { return vec4f(); }
 fn seen_through(seen: Seen, matter: Matter, length: f32) -> Seen { return Seen(); }
@@ -193,7 +193,7 @@ fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
     let by_columns = settings.steps_by != BY_SAMPLES;
     var whole = by_columns && is_of_one_colour();
     var seen = seen_nothing();
-    var k = view.zero;
+    var k = f32(view.zero);
     while (k <= stretches.count) & (seen.through > THINNEST) {
         let stretch = start + select(stretch_of(k, stretches), vec2f(0.0, stretches.extent), whole);
         var depth = -1.0;
@@ -227,7 +227,7 @@ fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
         } else {
             seen = seen_through(seen, far, stretch.y - stretch.x);
         }
-        k++;
+        k += 1.0;
     }
     return seen;
 }

@@ -122,7 +122,7 @@ struct Matter {
 
 struct Stretches {
     extent: f32,
-    count: u32,
+    count: f32,
     phase: f32,
 }
 
@@ -166,7 +166,7 @@ fn matter_of(jet: vec4f, medium: Medium) -> Matter { return Matter(); }
 fn seen_nothing() -> Seen { return Seen(); }
 fn medium_of(gas: Gas, half_size: vec3f, light: vec3f) -> Medium { return Medium(); }
 fn stretches_of(extent: f32, half_size: vec3f, steps: u32, jitter: f32, pixel: vec2f) -> Stretches { return Stretches(); }
-fn stretch_of(k: u32, stretches: Stretches) -> vec2f { return vec2f(); }
+fn stretch_of(k: f32, stretches: Stretches) -> vec2f { return vec2f(); }
 fn gas_over(seen: Seen, behind: vec4f, gas: Gas) -> vec4f { return vec4f(); }
 fn with_edges(under: vec4f, sight: Sight, t: f32, center: vec3f, half_size: vec3f, width: f32, ink: Layer) -> vec4f { return vec4f(); }
 fn seen_through(seen: Seen, matter: Matter, length: f32) -> Seen { return Seen(); }
@@ -239,11 +239,11 @@ fn met_in_part(sight: Sight, part: Kept, n: vec3f, pixel: vec2f) -> Met {
     let is_cut = part.cut_first || part.cut_last;
     let cut_t = select(part.end, part.start, part.cut_first);
     var met = Met(seen_nothing(), Layer(vec3f(), 0.0));
-    for (var k = view.zero + select(1u, 0u, is_cut); k <= stretches.count + 1u && met.seen.through > THINNEST; k++) {
-        let stretch = part.start + stretch_of(max(k, 1u) - 1u, stretches);
-        let t = select(0.5 * (stretch.x + stretch.y), cut_t, k == 0u);
+    for (var k = f32(view.zero) - select(0.0, 1.0, is_cut); (k <= stretches.count) & (met.seen.through > THINNEST); k += 1.0) {
+        let stretch = part.start + stretch_of(k, stretches);
+        let t = select(0.5 * (stretch.x + stretch.y), cut_t, k < 0.0);
         let jet = field_grad(sight.ray.origin + t * sight.ray.direction);
-        if k == 0u {
+        if k < 0.0 {
             met.cut = cut_layer(jet, t, sight, n, pixel);
         } else {
             met.seen = seen_through(met.seen, matter_of(jet, medium), stretch.y - stretch.x);

@@ -14,7 +14,7 @@ fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) ->
 
 // Outward unit normal of the face that a point of the box's surface lies on.
 fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f {
-    let q = (p - center) / max(half_size, vec3f(1e-20));
+    let q = (p - center) * (1.0 / max(half_size, vec3f(1e-20)));
     let a = abs(q);
     let across_x = (a.x >= a.y) & (a.x >= a.z);
     let across_y = !across_x & (a.y >= a.z);

@@ -68,11 +68,12 @@ fn hatch(pixel: vec2f, slope: f32, period: f32, duty: f32, window: f32) -> f32 {
 // no more than 2/w - 1.
 fn square_train(u: f32, window: f32) -> f32 {
     let place = 0.5 * u + 0.25;
-    let from_edge = 0.5 - 2.0 * abs(place - floor(place) - 0.5);
+    let from_middle = place - floor(place) - 0.5;
+    // without a window an edge is of the square that begins there
+    let from_edge = 0.5 - 2.0 * abs(from_middle) - 1e-19 * from_middle;
     let per_window = 2.0 / max(window, 1e-20);
     let most = clamp(per_window - 1.0, 0.0, 1.0);
-    // without a window an edge is of the square that begins there
-    return select(clamp(from_edge * per_window, -most, most), select(-1.0, 1.0, fract_of(0.5 * u) < 0.5), window < 1e-18);
+    return clamp(from_edge * per_window, -most, most);
 }
 
 // base^n for a base of 1 or more and |n| up to 127, by squaring: exact as long as the result is a whole number below 2²⁴.

@@ -49,13 +49,13 @@ fn medium_of(gas: Gas, half_size: vec3f, light: vec3f) -> Medium {
 // A way that is cut into stretches: see `stretch_at`.
 struct Stretches {
     extent: f32,
-    count: u32,
+    count: f32,
     phase: f32,
 }
 
 // A way in a box whose diagonal has `steps` stretches.
 fn stretches_of(extent: f32, half_size: vec3f, steps: u32, jitter: f32, pixel: vec2f) -> Stretches {
-    let count = max(u32(ceil(extent / (2.0 * length(half_size)) * f32(steps))), 1u);
+    let count = max(ceil(extent / (2.0 * length(half_size)) * f32(steps)), 1.0);
     return Stretches(extent, count, mix(0.5, sample_phase(pixel), jitter));
 }
 
@@ -98,33 +98,39 @@ fn emission_shade(uphill: vec3f, medium: Medium) -> f32 {
 
 // 1 - exp(-x) for x >= 0, without cancellation.
 fn absorbed_part(x: f32) -> f32 {
-    return select(1.0 - exp(-x), x * (1.0 - x * (0.5 - x / 6.0)), x < 0.02);
+    return unkept_part(x, exp(-x));
+}
+
+// The same where `kept`, which is exp(-x), is known.
+fn unkept_part(x: f32, kept: f32) -> f32 {
+    return select(1.0 - kept, x * (1.0 - x * (0.5 - x / 6.0)), x < 0.02);
 }
 
 // A stretch of uniform matter behind what has been seen: right for any length.
 fn seen_through(seen: Seen, matter: Matter, length: f32) -> Seen {
     let depth = min(matter.extinction * length, 80.0);
-    let light = seen.light + seen.through * absorbed_part(depth) * matter.colour;
-    return Seen(light, seen.through * exp(-depth));
+    let kept = exp(-depth);
+    return Seen(seen.light + seen.through * unkept_part(depth, kept) * matter.colour, seen.through * kept);
 }
 
 // A way of this extent is cut into `count` stretches of equal length whose borders are moved by a part of it, `phase` in
 // 0..1, and one more for what remains: the first and the last are shorter. Begin and end of the k-th, 0 ≤ k ≤ count.
-fn stretch_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f {
-    let place = (f32(k) + vec2f(phase - 1.0, phase)) * (extent / f32(count));
-    return clamp(place, vec2f(0.0), vec2f(extent));
+fn stretch_at(k: f32, count: f32, phase: f32, extent: f32) -> vec2f {
+    let length = extent / count;
+    let place = k + phase;
+    return vec2f(max((place - 1.0) * length, 0.0), min(place * length, extent));
 }
 
-fn stretch_of(k: u32, stretches: Stretches) -> vec2f {
+fn stretch_of(k: f32, stretches: Stretches) -> vec2f {
     return stretch_at(k, stretches.count, stretches.phase, stretches.extent);
 }
 
 // A way of this extent is cut into `count` parts whose borders are moved by up to half a part to both sides, as `phase` in 0..1 is:
 // the first and the last are longer or shorter. Begin and end of the k-th, 0 ≤ k < count.
-fn part_at(k: u32, count: u32, phase: f32, extent: f32) -> vec2f {
-    let length = extent / f32(count);
-    let middle = f32(k) + phase;
-    return vec2f(select((middle - 0.5) * length, 0.0, k == 0u), select((middle + 0.5) * length, extent, k + 1u == count));
+fn part_at(k: f32, count: f32, phase: f32, extent: f32) -> vec2f {
+    let length = extent / count;
+    let middle = k + phase;
+    return vec2f(select((middle - 0.5) * length, 0.0, k == 0.0), select((middle + 0.5) * length, extent, k + 1.0 >= count));
 }
 
 // A medium in front of a picture.

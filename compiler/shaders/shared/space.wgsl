@@ -45,10 +45,10 @@ fn tilt_of(sight: Sight, n: vec3f) -> f32 {
 // the view; the difference does not cancel, because h is at right angles to the ray. Of no use for a coordinate that is
 // constant there.
 fn axis_spread(sight: Sight, t: f32, n: vec3f) -> vec3f {
-    let lean = sight.ray.direction / tilt_of(sight, n);
+    let lean = sight.ray.direction * (1.0 / tilt_of(sight, n));
     let ahead = sight.forward - lean * dot(n, sight.forward);
     let square = 1.0 + lean * (lean - 2.0 * n) - ahead * ahead;
-    return inverseSqrt(max(square, vec3f(1e-12))) / max(sight_footprint(sight, t), 1e-37);
+    return inverseSqrt(max(square, vec3f(1e-12))) * (1.0 / max(sight_footprint(sight, t), 1e-37));
 }
 
 // Which coordinates change on a plane with normal n.

@@ -11,7 +11,7 @@ use super::scope::Scope;
 use super::suggest::quoted;
 use super::{Builder, Source, Value, builtins, calculus, library};
 use crate::defined::Digits;
-use crate::ir::{Id, Prim, Ty};
+use crate::ir::{Id, Prim, Slopes, Ty};
 use crate::table;
 use crate::types::Type;
 
@@ -311,6 +311,7 @@ impl<'a> Builder<'a> {
         let around = self.nesting.apart();
         let body = function.function.body;
         let value = self.outside(function.name, Source::Library, scope, body);
+        self.add_slopes(function, &value, &key.2);
         let loops = self.nesting.join(around);
         let found = self.diagnostics.split_off(before);
         if let Some(problem) = found.iter().find(|problem| problem.is_error()) {
@@ -331,6 +332,38 @@ impl<'a> Builder<'a> {
             self.calls.insert(key, known);
         }
         value
+    }
+
+    /// Remembers the derivatives of a value of the library that the library gives beside it: `_slopes_NAME` has those by as
+    /// many arguments as it has components, the first ones.
+    fn add_slopes(
+        &mut self,
+        function: &'static LibraryFunction,
+        value: &Value,
+        arguments: &[Value],
+    ) {
+        let (Value::Scalar(value), Some([slopes])) = (
+            value,
+            library::by_name(&format!("_slopes_{}", function.name)),
+        ) else {
+            return;
+        };
+        let of: Option<SmallVec<[Id; 2]>> = arguments
+            .iter()
+            .map(|argument| match argument {
+                Value::Scalar(id) => Some(*id),
+                _ => None,
+            })
+            .collect();
+        let (Some(of), Value::Vector(slopes)) = (
+            of,
+            self.library_body(slopes, arguments.to_vec(), Span::default()),
+        ) else {
+            return;
+        };
+        let by = of.iter().copied().zip(slopes.iter().copied()).collect();
+        let fixed = of.iter().skip(slopes.len()).copied().collect();
+        self.graph.set_slopes(*value, Slopes { by, fixed });
     }
 
     /// The value of the definition of the library with this name that takes exactly these types.

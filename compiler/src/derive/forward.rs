@@ -8,7 +8,7 @@ use super::extend::{extend, states};
 use super::rules::{
     int_power_partial, inverse_tangent, is_zero, quotient_correction, sum, takes_second, zero_like,
 };
-use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
+use crate::ir::{Graph, Id, Node, Op, Prim, Slopes, Ty};
 use crate::table::{self, Derivative};
 
 /// Derivative of each root along the direction that gives each seeded leaf the seed as its tangent. `None` is
@@ -66,11 +66,32 @@ pub fn forward(
         }
         let of_args: smallvec::SmallVec<[Option<Id>; 3]> =
             node.args.iter().map(|a| tangents[a.index()]).collect();
-        let tangent = tangent(g, prim, &node, id, &of_args)?;
+        let tangent = match known_slopes(g, id, |fixed| tangents[fixed.index()].is_none()) {
+            Some(slopes) => along_slopes(g, &slopes, &tangents),
+            None => tangent(g, prim, &node, id, &of_args)?,
+        };
         g.cover(g.span(id));
         tangents[id.index()] = tangent.filter(|&t| !is_zero(g, t));
     }
     Ok(roots.iter().map(|r| tangents[r.index()]).collect())
+}
+
+/// The derivatives of a node that are known, where all hold that `is_fixed` of what must be constant.
+pub(super) fn known_slopes(g: &Graph, id: Id, is_fixed: impl Fn(Id) -> bool) -> Option<Slopes> {
+    let slopes = g.slopes(id)?;
+    let all = slopes.fixed.iter().all(|&fixed| is_fixed(fixed));
+    all.then(|| slopes.clone())
+}
+
+fn along_slopes(g: &mut Graph, slopes: &Slopes, tangents: &[Option<Id>]) -> Option<Id> {
+    let mut total = None;
+    for &(value, slope) in &slopes.by {
+        if let Some(tangent) = tangents[value.index()].filter(|_| !is_zero(g, slope)) {
+            let term = g.mul(slope, tangent);
+            total = sum(g, total, Some(term));
+        }
+    }
+    total
 }
 
 fn tangent(

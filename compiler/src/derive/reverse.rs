@@ -2,6 +2,7 @@
 
 use super::NoDerivative;
 use super::activity::activity;
+use super::forward::known_slopes;
 use super::rules::{is_zero, sum, takes_second};
 use crate::ir::{Graph, Id, Op, Prim, Ty};
 use crate::table::{self, Derivative};
@@ -104,6 +105,16 @@ impl Sweep<'_> {
             let node = g.node(id).clone();
             let Op::Apply(prim) = node.op else { continue };
             if is_choice(node.op) {
+                continue;
+            }
+            if let Some(slopes) = known_slopes(g, id, |fixed| !self.active[fixed.index()]) {
+                for &(value, slope) in &slopes.by {
+                    if self.active[value.index()] && !is_zero(g, slope) {
+                        let term = g.mul(slope, adjoint);
+                        adjoints[value.index()] = sum(g, adjoints[value.index()], Some(term));
+                    }
+                }
+                g.cover(g.span(id));
                 continue;
             }
             for (k, &arg) in node.args.iter().enumerate() {

@@ -1,10 +1,13 @@
 //! Derivatives of loops against those of the same steps written out.
 
-use super::{ComplexVariable, forward, jet};
+use super::{ComplexVariable, forward, jet, reverse};
 use crate::eval::{Leaves, Tape};
-use crate::ir::{Graph, Id, Loop, Op, Prim, State, Ty, merge_loops, parse_text, to_text, verify};
+use crate::ir::{
+    Graph, Id, Loop, Op, Prim, Slopes, State, Ty, merge_loops, parse_text, to_text, verify,
+};
 use crate::reference::complex::complex;
 use crate::table::Number;
+use smallvec::smallvec;
 
 /// Next states from the number of steps done and the states.
 type Step = fn(&mut Graph, Id, &[Id]) -> Vec<Id>;
@@ -217,4 +220,32 @@ fn states_that_no_result_needs_are_left_out() {
     let (small, _) = merge_loops(&small, &new_roots);
     let states = |id| small.as_loop(id).map(|it| it.states.len());
     assert_eq!(small.ids().filter_map(states).collect::<Vec<_>>(), [2]);
+}
+
+#[test]
+fn derivatives_that_are_given_hold_where_the_rest_is_constant() {
+    let mut g = Graph::new();
+    let [x, y] = [0, 1].map(|k| g.leaf(Op::Input(k), Ty::Real));
+    let product = g.mul(x, y);
+    // not the true one, so that it is told from that
+    let seven = g.real(7.0);
+    let slopes = Slopes {
+        by: smallvec![(x, seven)],
+        fixed: smallvec![y],
+    };
+    g.set_slopes(product, slopes);
+    let square = g.mul(product, product);
+    let (mut g, roots) = g.compacted(&[square, x, y, seven]);
+    let &[square, x, y, _] = roots.as_slice() else {
+        panic!("four roots");
+    };
+    let one = g.real(1.0);
+    let by_x = forward(&mut g, &[square], &[(x, one)]).unwrap()[0].unwrap();
+    let by_y = forward(&mut g, &[square], &[(y, one)]).unwrap()[0].unwrap();
+    let back = reverse(&mut g, square, &[x]).unwrap().unwrap()[0].unwrap();
+    let both = reverse(&mut g, square, &[x, y]).unwrap().unwrap()[0].unwrap();
+    let inputs = [3.0, 5.0].map(Number::Real);
+    let found = evaluate(&g, &[by_x, by_y, back, both], &inputs);
+    let reals: Vec<f64> = found.iter().map(|f| f.0).collect();
+    assert_eq!(reals, [210.0, 90.0, 210.0, 150.0]);
 }

@@ -4,7 +4,7 @@ use pullback_grammar::Span;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::{Binder, Loop, Op, Prim, Ty, transcribe};
+use super::{Binder, Loop, Op, Prim, Slopes, Ty, transcribe};
 
 /// Index of a node. Operands have smaller indices than their users.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -39,6 +39,7 @@ pub struct Graph {
     nodes: Vec<Node>,
     ids: FxHashMap<Node, Id>,
     names: FxHashMap<Id, String>,
+    pub(super) slopes: FxHashMap<Id, Slopes>,
     /// Where each node comes from in the text; nodes beyond the end come from nowhere yet.
     spans: Vec<Span>,
     /// Number of states that each binder has given out.

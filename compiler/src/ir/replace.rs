@@ -94,6 +94,11 @@ impl Graph {
         if let Some(name) = self.name(id).map(str::to_owned) {
             self.set_name(new, &name);
         }
+        let slopes = self.slopes(id);
+        if let Some(slopes) = slopes.and_then(|s| s.mapped(|old| Some(map.get(old).unwrap_or(old))))
+        {
+            self.set_slopes(new, slopes);
+        }
         Some(new)
     }
 }

@@ -53,6 +53,12 @@ pub fn transcribe(
         if let Some(name) = from.name(id) {
             to.set_name(new, name);
         }
+        if let Some(slopes) = from
+            .slopes(id)
+            .and_then(|s| s.mapped(|old| map[old.index()]))
+        {
+            to.set_slopes(new, slopes);
+        }
         map[id.index()] = Some(new);
     }
     roots.iter().filter_map(|r| map[r.index()]).collect()
