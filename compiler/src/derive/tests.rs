@@ -226,9 +226,9 @@ fn states_that_no_result_needs_are_left_out() {
 fn derivatives_that_are_given_hold_where_the_rest_is_constant() {
     let mut g = Graph::new();
     let [x, y] = [0, 1].map(|k| g.leaf(Op::Input(k), Ty::Real));
-    let product = g.mul(x, y);
-    // not the true one, so that it is told from that
+    // not the true derivative, so that it is told from that
     let seven = g.real(7.0);
+    let product = g.mul(x, y);
     let slopes = Slopes {
         by: smallvec![(x, seven)],
         fixed: smallvec![y],

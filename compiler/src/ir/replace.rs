@@ -20,7 +20,7 @@ impl Graph {
         if last < first {
             return roots.to_vec();
         }
-        let mut map = Replaced::new(first, last);
+        let mut map = Replaced::over(first, last);
         for &(leaf, value) in values {
             if let (Some(slot), true) = (map.slot(leaf), value < leaf) {
                 *slot = Some(value);
@@ -94,9 +94,9 @@ impl Graph {
         if let Some(name) = self.name(id).map(str::to_owned) {
             self.set_name(new, &name);
         }
-        let slopes = self.slopes(id);
-        if let Some(slopes) = slopes.and_then(|s| s.mapped(|old| Some(map.get(old).unwrap_or(old))))
-        {
+        // of a node that has not been built anew it is not known whether it ought to have been
+        let slopes = self.slopes(id).and_then(|s| s.mapped(|old| map.new(old)));
+        if let Some(slopes) = slopes {
             self.set_slopes(new, slopes);
         }
         Some(new)
@@ -110,7 +110,7 @@ struct Replaced {
 }
 
 impl Replaced {
-    fn new(first: Id, last: Id) -> Self {
+    fn over(first: Id, last: Id) -> Self {
         Self {
             first,
             new: vec![None; (last.0 - first.0) as usize + 1],
@@ -120,6 +120,11 @@ impl Replaced {
     fn slot(&mut self, id: Id) -> Option<&mut Option<Id>> {
         let index = id.0.checked_sub(self.first.0)?;
         self.new.get_mut(index as usize)
+    }
+
+    /// What stands in the place of a node, or the node where it is older than all that is replaced.
+    fn new(&self, id: Id) -> Option<Id> {
+        self.get(id).or((id < self.first).then_some(id))
     }
 
     fn get(&self, id: Id) -> Option<Id> {

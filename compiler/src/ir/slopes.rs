@@ -32,11 +32,11 @@ impl Slopes {
 }
 
 impl Graph {
-    /// Remembers derivatives of a value. They are lost in a copy of the graph that lacks one of the nodes, and forgotten where the value is older than one of what they are by, as where
-    /// it has been simplified to that.
+    /// Remembers derivatives of a value. They are not kept where the value is older than one of their nodes, as where it has been
+    /// simplified to one, and lost in a copy of the graph that lacks one.
     pub fn set_slopes(&mut self, value: Id, slopes: Slopes) {
-        let of = slopes.by.iter().map(|by| by.0);
-        let is_newer = of.chain(slopes.fixed.iter().copied()).all(|id| id < value);
+        let by = slopes.by.iter().flat_map(|&(of, slope)| [of, slope]);
+        let is_newer = by.chain(slopes.fixed.iter().copied()).all(|id| id < value);
         if is_newer && self.ty(value) == Ty::Real {
             self.slopes.entry(value).or_insert(slopes);
         }
