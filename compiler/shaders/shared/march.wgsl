@@ -366,7 +366,10 @@ fn dip_on(before: Search, probe: Probe, family: Family) -> Search {
         return search_ended(search);
     }
     if band_of(probe, family) != search.band {
-        return root_between(search, search.low, probe, family);
+        var root = root_between(search, search.low, probe, family);
+        // beside the extremum f may hardly go beyond the level, and would be taken for noise there
+        root.before = max(root.before, search.before);
+        return root;
     }
     if away(search, probe) <= away(search, search.nearest) {
         search.nearest = probe;
