@@ -199,7 +199,7 @@ impl Integrator<'_> {
 
     /// Nodes of the integrand where |w| < |x_m|/2, so that the zero of x is twice as far as the ends.
     fn near_zero_or(&mut self, x: Affine, integrand: Id, degree: u32, far: Id) -> Id {
-        let near = self.gauss(integrand, NEAR_NODES + degree.div_ceil(2) as usize);
+        let near = self.local_gauss(integrand, NEAR_NODES + degree.div_ceil(2) as usize);
         let w = mul(self.g, x.slope, self.path.half);
         let [w, mid] = [w, x.mid].map(|v| call(self.g, Prim::Abs, v));
         let limit = scale(self.g, 0.5, mid);
@@ -377,7 +377,7 @@ impl Integrator<'_> {
             }
             _ => (self.g.real(0.5), nodes_for_exponential(2.0, 0, NEAR)),
         };
-        let near = self.gauss(function, nodes);
+        let near = self.local_gauss(function, nodes);
         if_less(self.g, w, limit, near, far)
     }
 

@@ -61,8 +61,12 @@ impl Integrator<'_> {
         if degree > MAX_DEGREE_BESIDE_POWER {
             return Err(self.bound_beside(source));
         }
+        let whole = self.path.clone();
+        if !polynomials.is_empty() {
+            self.path = whole.rebased(self.g);
+        }
         let bowl = self.bowl(base);
-        match (twice, degree) {
+        let found = match (twice, degree) {
             (-2, 0) => Ok((self.reciprocal(&bowl), Rule::Reciprocal)),
             (-1, 0) => Ok((self.reciprocal_root(&bowl), Rule::ReciprocalRoot)),
             (1, 0) => Ok((self.root_alone(&bowl), Rule::Root)),
@@ -82,7 +86,9 @@ impl Integrator<'_> {
                 ))
             }
             _ => Err(not_found(self)),
-        }
+        };
+        self.path = whole;
+        found
     }
 
     pub(super) fn bound_beside(&self, source: Id) -> Problem {
@@ -107,13 +113,14 @@ impl Integrator<'_> {
         if degree > MAX_DEGREE_BESIDE_POWER {
             return Err(self.bound_beside(source));
         }
+        let whole = self.path.clone();
+        self.path = whole.rebased(self.g);
         let bowl = self.bowl(base);
         let far = self.moments(&bowl, polynomials, degree, Moments::Log);
         let integrand = self.beside(polynomials, super::term::Factor::Log(base));
-        Ok((
-            self.near_or(&bowl, integrand, degree, far),
-            Rule::LogQuadratic,
-        ))
+        let value = self.near_or(&bowl, integrand, degree, far);
+        self.path = whole;
+        Ok((value, Rule::LogQuadratic))
     }
 
     pub(super) fn beside(&mut self, polynomials: &[Id], factor: super::term::Factor) -> Id {
@@ -144,7 +151,7 @@ impl Integrator<'_> {
 
     /// The nodes of the integrand where the interval is short, else the other form.
     fn near_or(&mut self, bowl: &Bowl, integrand: Id, degree: u32, far: Id) -> Id {
-        let near = self.gauss(integrand, NEAR_NODES + degree.div_ceil(2) as usize);
+        let near = self.local_gauss(integrand, NEAR_NODES + degree.div_ceil(2) as usize);
         let reach = call(self.g, Prim::Abs, bowl.reach);
         let mut limit = scale(self.g, 0.25, bowl.q.c);
         if !bowl.is_sum_of_squares {

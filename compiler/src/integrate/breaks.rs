@@ -45,7 +45,7 @@ impl<'g> Integrator<'g> {
             }
         }
         let mut cuts = Vec::new();
-        // t at the zeros, so that they are exact to the distance from the origin
+        // t at the zeros, so that they are exact to their distance from t = 0
         let whole = self.path.clone();
         self.path = whole.from_origin(self.g);
         let found = zeros

@@ -6,9 +6,10 @@
 
 use std::f64::consts::PI;
 
-use super::arithmetic::{add, call, if_less, mul, scale, sub};
+use super::arithmetic::{add, call, if_less, mul, scale};
 use super::exponential::{NEAR, Parts, Wave};
 use super::legendre::nodes_for_exponential;
+use super::pair::Pair;
 use super::quadratic::{Affine, Quadratic};
 use super::rule::Rule;
 use super::term::Term;
@@ -26,6 +27,8 @@ const CHANGE: f64 = 4.0;
 /// One end of the interval: e^(-q), and the place in u.
 struct End {
     size: Id,
+    /// What the exponent is beyond its rounded value.
+    rest: Id,
     place: Id,
 }
 
@@ -53,9 +56,10 @@ impl Integrator<'_> {
         let wide = self.g.apply(Prim::Max, &[width, floor]);
         let rate = self.g.div(wide, half);
         let ends = [0, 1].map(|k| {
-            let fall = self.g.neg(q.ends[k]);
+            let fall = self.pair_at(q.of, self.path.ends[k]).negated(self.g);
             End {
-                size: call(self.g, Prim::Exp, fall),
+                size: call(self.g, Prim::Exp, fall.value),
+                rest: fall.rest,
                 place: self.g.div(q.slopes[k], rate),
             }
         });
@@ -69,7 +73,7 @@ impl Integrator<'_> {
             sum = add(self.g, sum, value);
         }
         let integrand = term.moving(self.g);
-        let near = self.gauss(integrand, nodes_for_exponential(CHANGE, 0, NEAR));
+        let near = self.local_gauss(integrand, nodes_for_exponential(CHANGE, 0, NEAR));
         let size = self.change_of_waves(&q, half, &waves);
         let limit = self.g.real(CHANGE);
         let value = if_less(self.g, limit, size, sum, near);
@@ -110,7 +114,8 @@ impl Integrator<'_> {
         let speed = self.g.div(phase.slope, rate);
         let shift = scale(self.g, 0.5, speed);
         let zero = self.g.real(0.0);
-        let parts = [0, 1].map(|k| self.end_part(&ends[k], shift, prim, phase.ends[k]));
+        let angles = self.pair_at_ends(phase.of);
+        let parts = [0, 1].map(|k| self.end_part(&ends[k], shift, prim, angles[k]));
         let sum = self.g.sub(parts[0], parts[1]);
         let whole = self.whole_wave(q, shift, prim, phase);
         let inside = ends.each_ref().map(|end| {
@@ -126,7 +131,7 @@ impl Integrator<'_> {
     }
 
     /// S(x) times √a.
-    fn end_part(&mut self, end: &End, shift: Id, prim: Prim, angle: Id) -> Id {
+    fn end_part(&mut self, end: &End, shift: Id, prim: Prim, angle: Pair) -> Id {
         let zero = self.g.real(0.0);
         let distance = call(self.g, Prim::Abs, end.place);
         let [re, im] = self.faddeeva(shift, distance);
@@ -134,6 +139,7 @@ impl Integrator<'_> {
         let is_left = self.g.apply(Prim::Less, &[end.place, zero]);
         let im = self.g.apply(Prim::Select, &[is_left, back, im]);
         let turned = self.turned(prim, angle, re, im);
+        let turned = self.grown(turned, end.rest);
         let value = mul(self.g, end.size, turned);
         let value = scale(self.g, 0.5 * PI.sqrt(), value);
         let back = self.g.neg(value);
@@ -157,13 +163,15 @@ impl Integrator<'_> {
         let negated = self.g.neg(exponent);
         let q = self.quadratic(negated);
         let rate = call(self.g, Prim::Sqrt, q.a);
-        let fall = self.g.neg(q.c);
+        let fall = self.pair_in_middle(q.of).negated(self.g);
         let end = End {
-            size: call(self.g, Prim::Exp, fall),
+            size: call(self.g, Prim::Exp, fall.value),
+            rest: fall.rest,
             place: self.g.div(q.b, rate),
         };
         let zero = self.g.real(0.0);
         let constant = Affine {
+            of: zero,
             mid: zero,
             ends: [zero; 2],
             slope: zero,
@@ -173,7 +181,8 @@ impl Integrator<'_> {
             let (prim, phase) = wave.wave.unwrap_or((Prim::Cos, constant));
             let speed = self.g.div(phase.slope, rate);
             let shift = scale(self.g, 0.5, speed);
-            let part = self.end_part(&end, shift, prim, phase.mid);
+            let angle = self.pair_in_middle(phase.of);
+            let part = self.end_part(&end, shift, prim, angle);
             let whole = self.whole_wave(&q, shift, prim, phase);
             let whole = if_less(self.g, end.place, zero, whole, zero);
             let value = add(self.g, part, whole);
@@ -191,29 +200,19 @@ impl Integrator<'_> {
 
     /// √π e^(-D/a - κ²/4) times the wave at the centre.
     fn whole_wave(&mut self, q: &Quadratic, shift: Id, prim: Prim, phase: Affine) -> Id {
-        let depth = self.g.div(q.discriminant, q.a);
+        let depth = self.pair_at(q.of, q.foot);
         let square = super::arithmetic::square(self.g, shift);
-        let fall = self.g.add(depth, square);
-        let fall = self.g.neg(fall);
-        let size = call(self.g, Prim::Exp, fall);
-        let offset = self.g.div(q.b, q.a);
-        let step = mul(self.g, offset, phase.slope);
-        let angle = sub(self.g, phase.mid, step);
-        let wave = call(self.g, prim, angle);
-        let value = mul(self.g, size, wave);
+        let [least, spread] = [depth.value, square].map(|x| {
+            let fall = self.g.neg(x);
+            call(self.g, Prim::Exp, fall)
+        });
+        let angle = self.pair_at(phase.of, q.foot);
+        let wave = self.wave_of(prim, angle);
+        let fall = scale(self.g, -1.0, depth.rest);
+        let wave = self.grown(wave, fall);
+        let wave = mul(self.g, spread, wave);
+        let value = mul(self.g, least, wave);
         scale(self.g, PI.sqrt(), value)
-    }
-
-    /// The part of e^(iφ) (re + i im) that the wave is.
-    fn turned(&mut self, prim: Prim, angle: Id, re: Id, im: Id) -> Id {
-        let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, angle));
-        if prim == Prim::Sin {
-            let (a, b) = (mul(self.g, sine, re), mul(self.g, cosine, im));
-            add(self.g, a, b)
-        } else {
-            let (a, b) = (mul(self.g, cosine, re), mul(self.g, sine, im));
-            sub(self.g, a, b)
-        }
     }
 
     /// w(x + iy) = e^(-z²) erfc(-iz) for y ≥ 0: 2 p(Z)/(ℓ - iz)² + 1/(√π (ℓ - iz)), Z = (ℓ + iz)/(ℓ - iz).

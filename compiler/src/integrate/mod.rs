@@ -26,6 +26,8 @@ mod gaussian_waves;
 mod group;
 mod infinite;
 mod legendre;
+mod local;
+mod pair;
 mod path;
 mod problem;
 mod products;
@@ -190,11 +192,11 @@ impl<'g> Integrator<'g> {
     fn in_pieces(&mut self, root: Id) -> Result<Id, Problem> {
         match self.cuts(root) {
             Ok(cuts) if cuts.is_empty() => self.smooth(root),
-            Ok(cuts) => {
+            Ok(_) => {
                 self.pieces = true;
                 match self.ridge(root) {
                     Some(value) => Ok(value),
-                    None => self.piecewise(root, &cuts, Self::smooth),
+                    None => self.in_rebased_pieces(root),
                 }
             }
             Err(problem) if self.otherwise == Otherwise::Quadrature => {
@@ -204,6 +206,17 @@ impl<'g> Integrator<'g> {
             }
             Err(problem) => Err(problem),
         }
+    }
+
+    /// The pieces with t counted from the middle where the interval is far away: places where conditions change would be
+    /// rounded to their distance from t = 0.
+    fn in_rebased_pieces(&mut self, root: Id) -> Result<Id, Problem> {
+        let whole = self.path.clone();
+        self.path = whole.rebased(self.g);
+        let cuts = self.cuts(root);
+        let value = cuts.and_then(|cuts| self.piecewise(root, &cuts, Self::smooth));
+        self.path = whole;
+        value
     }
 
     /// The integral of an integrand whose conditions are constant along the path.
@@ -271,7 +284,7 @@ impl<'g> Integrator<'g> {
             Rule::Polynomial
         };
         self.note(root, &[], rule);
-        self.gauss(root, degree as usize / 2 + 1)
+        self.local_gauss(root, degree as usize / 2 + 1)
     }
 
     /// Remembers how a product was integrated, conditions as they were written.
@@ -315,7 +328,7 @@ impl<'g> Integrator<'g> {
                 );
             };
             return Ok((
-                self.gauss(moving, degree as usize / 2 + 1),
+                self.local_gauss(moving, degree as usize / 2 + 1),
                 Rule::Polynomial,
             ));
         }

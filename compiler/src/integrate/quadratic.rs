@@ -7,6 +7,8 @@ use crate::ir::{Id, Op, Prim};
 /// mid + s slope, s from the middle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Affine {
+    /// The expression.
+    pub of: Id,
     /// Value in the middle.
     pub mid: Id,
     /// Values at both ends.
@@ -18,6 +20,8 @@ pub struct Affine {
 /// a s² + 2 b s + c.
 #[derive(Clone, Copy, Debug)]
 pub struct Quadratic {
+    /// The expression.
+    pub of: Id,
     /// Coefficient of s².
     pub a: Id,
     /// Half the coefficient of s.
@@ -57,7 +61,12 @@ impl Integrator<'_> {
         let slope = self.slope(id);
         let slope = self.at_middle(slope);
         let ends = self.at_ends(id);
-        Affine { mid, slope, ends }
+        Affine {
+            of: id,
+            mid,
+            slope,
+            ends,
+        }
     }
 
     /// The coefficients of an expression of degree 2 or less.
@@ -93,6 +102,7 @@ impl Integrator<'_> {
             }
         };
         Quadratic {
+            of: id,
             a,
             b,
             c,
