@@ -176,14 +176,34 @@ impl Integrator<'_> {
         if_less(self.g, bowl.q.c, zero, less, one)
     }
 
-    /// ∫ 1/q = L atan2(√(D L²), E)/√(D L²), which is one formula through D = 0; of -q where q is negative.
+    /// ∫ 1/q = L atan2(√(D L²), E)/√(D L²), which is one formula through D = 0; of -q where q is negative. Beside a pole
+    /// (L/√(-D L²)) log((E + √(-D L²))/√(q₀ q₁)), as q₀ q₁ = E² + D L².
     pub(super) fn reciprocal(&mut self, bowl: &Bowl) -> Id {
         let sign = self.sign_of(bowl);
         let e = mul(self.g, sign, bowl.q.chord);
         let p = self.width_of_triangle(bowl);
         let quotient = self.g.apply(Prim::Atan2Quotient, &[p, e]);
         let length = mul(self.g, sign, bowl.length);
-        mul(self.g, length, quotient)
+        let value = mul(self.g, length, quotient);
+        if bowl.is_sum_of_squares {
+            return value;
+        }
+        // beside a pole E² and -D L² are nearly the same, and what is left is the product of the ends
+        let back = self.g.neg(p);
+        let root = call(self.g, Prim::Sqrt, back);
+        let sum = add(self.g, e, root);
+        let roots = bowl.ends.map(|q| {
+            let size = mul(self.g, sign, q);
+            call(self.g, Prim::Sqrt, size)
+        });
+        let product = mul(self.g, roots[0], roots[1]);
+        let ratio = self.g.div(sum, product);
+        let log = call(self.g, Prim::Log, ratio);
+        let beside = self.g.div(log, root);
+        let beside = mul(self.g, length, beside);
+        let reach = square(self.g, e);
+        let limit = scale(self.g, 0.5, reach);
+        if_less(self.g, limit, back, beside, value)
     }
 
     pub(super) fn roots(&mut self, bowl: &Bowl) -> ([Id; 2], Id) {

@@ -214,9 +214,9 @@ impl Integrator<'_> {
             value: scale(self.g, 0.5, end.value),
             rest: scale(self.g, 0.5, end.rest),
         });
-        let middle = ends[0].plus(self.g, ends[1]);
+        let middle = ends[0].plus(self.g, ends[1]).normalised(self.g);
         let back = ends[0].negated(self.g);
-        let change = ends[1].plus(self.g, back);
+        let change = ends[1].plus(self.g, back).normalised(self.g);
         let value = call(self.g, prim, middle.value);
         let shrink = call(self.g, Prim::Sinhc, change.value);
         let mean = mul(self.g, value, shrink);

@@ -106,13 +106,9 @@ impl Integrator<'_> {
             if_less(self.g, narrow, far, own, width),
         );
         let mass = self.g.apply(Prim::GaussMassScaled, &[centre, width]);
-        let first = if_less(
-            self.g,
-            q.ends[0],
-            q.ends[1],
-            self.path.ends[0],
-            self.path.ends[1],
-        );
+        let sizes = places.map(|u| call(self.g, Prim::Abs, u));
+        let [start, end] = self.path.ends;
+        let first = if_less(self.g, sizes[0], sizes[1], start, end);
         let product = self.g.mul(places[0], places[1]);
         let place = if_less(self.g, product, zero, q.foot, first);
         let exponent = self.pair_at(q.of, place).negated(self.g);

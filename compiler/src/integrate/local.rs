@@ -2,12 +2,13 @@
 //!
 //! Beside a zero of such a polynomial, or where it is the exponent or the phase of something, its rounding at each node
 //! would count more than that of all else. So each is known once in the middle of the interval, with its rest, and the
-//! nodes take what it changes by from there: e^(q + δ) = e^q e^δ, sin(φ + δ) = sin φ cos δ + cos φ sin δ.
+//! nodes take what it changes by from there: e^(q + δ) = e^q e^δ, log(q + δ) = log q + log(1 + δ/q), sin(φ + δ) =
+//! sin φ cos δ + cos φ sin δ.
 
 use rustc_hash::FxHashMap;
 
 use super::Integrator;
-use super::arithmetic::{add, call, mul, mul_add, scale};
+use super::arithmetic::{add, call, div, mul, mul_add, scale};
 use super::legendre::{Node, gauss_legendre};
 use super::pair::Pair;
 use super::path::Body;
@@ -19,6 +20,8 @@ enum Kind {
     Polynomial,
     /// e to it.
     Exponential,
+    /// Its logarithm.
+    Logarithm,
     /// Its sine or cosine.
     Wave(Prim),
 }
@@ -29,7 +32,7 @@ struct Local {
     id: Id,
     kind: Kind,
     middle: Pair,
-    /// The value, e to it, or its sine and cosine in the middle.
+    /// The value, e to it, its logarithm, or its sine and cosine in the middle.
     values: [Id; 2],
     /// Half the curvature, and the slope in the middle.
     curve: Id,
@@ -97,6 +100,7 @@ impl Integrator<'_> {
             let of = node.args.first().and_then(|&a| self.degree(a));
             match (prim, of) {
                 (Prim::Exp, Some(1 | 2)) => _ = out.insert(id, Kind::Exponential),
+                (Prim::Log, Some(1 | 2)) => _ = out.insert(id, Kind::Logarithm),
                 (Prim::Sin | Prim::Cos, Some(1)) => _ = out.insert(id, Kind::Wave(prim)),
                 _ => stack.extend(node.args),
             }
@@ -123,6 +127,7 @@ impl Integrator<'_> {
         let values = match kind {
             Kind::Polynomial => [middle.total(self.g); 2],
             Kind::Exponential => [call(self.g, Prim::Exp, middle.value); 2],
+            Kind::Logarithm => [call(self.g, Prim::Log, middle.value); 2],
             Kind::Wave(_) => [Prim::Sin, Prim::Cos].map(|p| self.wave_of(p, middle)),
         };
         Local {
@@ -157,26 +162,36 @@ impl Integrator<'_> {
             return mul_add(g, s, rate, of.values[0]);
         }
         let change = mul_add(g, s, rate, of.middle.rest);
+        if matches!(of.kind, Kind::Logarithm) {
+            let part = div(g, change, of.middle.value);
+            let growth = call(g, Prim::Log1p, part);
+            return add(g, of.values[0], growth);
+        }
         let growth = call(g, Prim::Exp, change);
         mul(g, of.values[0], growth)
     }
 
     /// Whether a polynomial of degree 1 or 2 may be much smaller than what it is the sum of: not a multiple of a
-    /// coordinate, nor a sum of squares with constants that are not negative.
-    fn may_cancel(&mut self, id: Id) -> bool {
-        let mut of = id;
-        loop {
+    /// coordinate or of its square, nor a sum of such squares and constants none of which is negative.
+    pub(super) fn may_cancel(&mut self, id: Id) -> bool {
+        let mut stack = vec![id];
+        while let Some(of) = stack.pop() {
             let node = self.g.node(of).clone();
-            of = match (node.op, node.args.as_slice()) {
-                (Op::Apply(Prim::Neg), &[a]) => a,
-                (Op::Apply(Prim::Mul), &[a, b]) if !self.moves(a) => b,
-                (Op::Apply(Prim::Mul | Prim::Div), &[a, b]) if !self.moves(b) => a,
-                (Op::Apply(Prim::Mul), &[a, b]) if a == b => a,
-                (Op::Apply(Prim::PowInt(2)), &[a]) => a,
-                (Op::Apply(_), _) => break,
-                _ => return false,
-            };
+            let Op::Apply(prim) = node.op else { continue };
+            match (prim, node.args.as_slice()) {
+                (Prim::Neg, &[a]) => stack.push(a),
+                (Prim::Mul, &[a, b]) if !self.moves(a) => stack.push(b),
+                (Prim::Mul | Prim::Div, &[a, b]) if !self.moves(b) => stack.push(a),
+                (Prim::Mul, &[a, b]) => stack.extend([a, b]),
+                (Prim::PowInt(_), &[a]) => stack.push(a),
+                (Prim::Hypot | Prim::Hypot3 | Prim::Sqrt | Prim::Abs, args) => stack.extend(args),
+                (Prim::Add, &[a, b]) if self.is_sum_of_squares(of) => {
+                    stack.extend([a, b].into_iter().filter(|&x| self.moves(x)));
+                }
+                _ if self.moves(of) => return true,
+                _ => {}
+            }
         }
-        !self.is_sum_of_squares(id)
+        false
     }
 }

@@ -68,7 +68,7 @@ use arithmetic::{add, mul, scale};
 use class::Classes;
 use exponential::Parts;
 use group::Groups;
-use path::Body;
+use path::{Body, without_rests};
 use term::{Factor, Term};
 
 use crate::derive::forward;
@@ -122,6 +122,7 @@ pub fn integrate(
     path: &Path,
     otherwise: Otherwise,
 ) -> Result<Integral, Problem> {
+    let root = without_rests(g, root);
     let mut integrator = Integrator::new(g, path.clone(), otherwise);
     let value = integrator.whole(root)?;
     Ok(Integral {
@@ -138,6 +139,7 @@ pub fn integrate(
 /// # Errors
 /// A bound is exceeded.
 pub fn quadrature(g: &mut Graph, root: Id, path: &Path) -> Result<Id, Problem> {
+    let root = without_rests(g, root);
     Integrator::new(g, path.clone(), Otherwise::Quadrature).by_quadrature_alone(root)
 }
 

@@ -65,6 +65,13 @@ impl Pair {
         add(g, self.value, self.rest)
     }
 
+    /// The same with a rest that is next to nothing beside the value, after a sum that may have cancelled.
+    pub fn normalised(self, g: &mut Graph) -> Self {
+        let value = self.total(g);
+        let rest = sum_rest(g, self.value, self.rest, value);
+        Self { value, rest }
+    }
+
     /// The pair turned.
     pub fn negated(self, g: &mut Graph) -> Self {
         Self {

@@ -315,6 +315,37 @@ fn copy(
     }
 }
 
+/// An integrand without what rules have written to lessen roundings: `fma` as product and sum, and no rests. That is what
+/// an integral within it is to the rules.
+pub fn without_rests(g: &mut Graph, root: Id) -> Id {
+    let order = cone(g, &[root]);
+    let is_rest =
+        |g: &Graph, id: Id| matches!(g.node(id).op, Op::Apply(Prim::MulAdd | Prim::SumRest));
+    if !order.iter().any(|&id| is_rest(g, id)) {
+        return root;
+    }
+    let mut map: FxHashMap<Id, Id> = FxHashMap::default();
+    let mut binders: FxHashMap<Binder, Binder> = FxHashMap::default();
+    for id in order {
+        let args: SmallVec<[Id; 4]> = g
+            .node(id)
+            .args
+            .iter()
+            .map(|a| map.get(a).copied().unwrap_or(*a))
+            .collect();
+        let new = match (g.node(id).op, args.as_slice()) {
+            (Op::Apply(Prim::MulAdd), &[a, b, c]) => {
+                let product = mul(g, a, b);
+                add(g, product, c)
+            }
+            (Op::Apply(Prim::SumRest), _) => g.real(0.0),
+            _ => copy(g, id, &map, &mut binders),
+        };
+        map.insert(id, new);
+    }
+    map.get(&root).copied().unwrap_or(root)
+}
+
 /// What the roots depend on, in order.
 pub fn cone(g: &Graph, roots: &[Id]) -> Vec<Id> {
     let mut seen: FxHashSet<Id> = FxHashSet::default();
