@@ -182,28 +182,30 @@ impl Integrator<'_> {
         let sign = self.sign_of(bowl);
         let e = mul(self.g, sign, bowl.q.chord);
         let p = self.width_of_triangle(bowl);
-        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, e]);
+        let ends = bowl.ends.map(|q| mul(self.g, sign, q));
+        let quotient = self.angle_between(bowl, (p, e), ends);
         let length = mul(self.g, sign, bowl.length);
-        let value = mul(self.g, length, quotient);
+        mul(self.g, length, quotient)
+    }
+
+    /// ∫ dt/q over its length, by p = D L², E and the values of q at both ends, none of which is negative.
+    pub(super) fn angle_between(&mut self, bowl: &Bowl, (p, e): (Id, Id), ends: [Id; 2]) -> Id {
+        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, e]);
         if bowl.is_sum_of_squares {
-            return value;
+            return quotient;
         }
         // beside a pole E² and -D L² are nearly the same, and what is left is the product of the ends
         let back = self.g.neg(p);
         let root = call(self.g, Prim::Sqrt, back);
         let sum = add(self.g, e, root);
-        let roots = bowl.ends.map(|q| {
-            let size = mul(self.g, sign, q);
-            call(self.g, Prim::Sqrt, size)
-        });
+        let roots = ends.map(|q| call(self.g, Prim::Sqrt, q));
         let product = mul(self.g, roots[0], roots[1]);
         let ratio = self.g.div(sum, product);
         let log = call(self.g, Prim::Log, ratio);
         let beside = self.g.div(log, root);
-        let beside = mul(self.g, length, beside);
         let reach = square(self.g, e);
         let limit = scale(self.g, 0.5, reach);
-        if_less(self.g, limit, back, beside, value)
+        if_less(self.g, limit, back, beside, quotient)
     }
 
     pub(super) fn roots(&mut self, bowl: &Bowl) -> ([Id; 2], Id) {

@@ -302,18 +302,24 @@ impl Integrator<'_> {
         sum
     }
 
-    /// The derivatives of a product of polynomials at both ends.
-    pub(super) fn derivatives_at_ends(
-        &mut self,
-        polynomials: &[Id],
-        degree: u32,
-    ) -> [(f64, Values); 2] {
+    /// A product of polynomials and its derivatives.
+    pub(super) fn derivatives(&mut self, polynomials: &[Id], degree: u32) -> Vec<Id> {
         let one = self.g.real(1.0);
         let mut derivatives = vec![polynomials.iter().fold(one, |p, &q| mul(self.g, p, q))];
         for _ in 0..degree {
             let last = derivatives[derivatives.len() - 1];
             derivatives.push(self.slope(last));
         }
+        derivatives
+    }
+
+    /// The derivatives of a product of polynomials at both ends.
+    pub(super) fn derivatives_at_ends(
+        &mut self,
+        polynomials: &[Id],
+        degree: u32,
+    ) -> [(f64, Values); 2] {
+        let derivatives = self.derivatives(polynomials, degree);
         let leaves = self.path.coordinates.iter().map(|c| c.leaf);
         let body = Body::new(self.g, &derivatives, leaves);
         [(1.0, 1), (-1.0, 0)].map(|(side, which)| {

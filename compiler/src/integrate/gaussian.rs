@@ -45,12 +45,8 @@ impl Integrator<'_> {
         let negated = self.g.neg(exponent);
         let q = self.quadratic(negated);
         if self.g.as_real(q.a).is_some_and(|a| a < 0.0) || self.is_sum_of_squares(exponent) {
-            // beside some polynomials, as x e^(x²), it is
-            let reason = match degree {
-                0 => Reason::NotElementary("Liouville: e to a growing square"),
-                _ => Reason::NotFound,
-            };
-            return Err(self.problem(term.source, reason));
+            let value = self.growing_gaussian(exponent, &parts.polynomials, degree);
+            return Ok((value, Rule::GrowingGaussian));
         }
         let integrand = term.moving(self.g);
         let (value, rule) = if degree == 0 {
@@ -64,9 +60,7 @@ impl Integrator<'_> {
         if self.is_sum_of_squares(negated) {
             return Ok((value, rule));
         }
-        // with a growing square only intervals on which it changes little
-        let growing =
-            self.local_gauss(integrand, nodes_for_exponential(4.0, degree as usize, NEAR));
+        let growing = self.growing_gaussian(exponent, &parts.polynomials, degree);
         let zero = self.g.real(0.0);
         Ok((if_less(self.g, q.a, zero, growing, value), rule))
     }
@@ -106,9 +100,10 @@ impl Integrator<'_> {
             if_less(self.g, narrow, far, own, width),
         );
         let mass = self.g.apply(Prim::GaussMassScaled, &[centre, width]);
-        let sizes = places.map(|u| call(self.g, Prim::Abs, u));
+        // where the centre is outside, the exponent goes one way: the end from which it falls
         let [start, end] = self.path.ends;
-        let first = if_less(self.g, sizes[0], sizes[1], start, end);
+        let fall = mul(self.g, q.b, self.path.half);
+        let first = if_less(self.g, zero, fall, start, end);
         let product = self.g.mul(places[0], places[1]);
         let place = if_less(self.g, product, zero, q.foot, first);
         let exponent = self.pair_at(q.of, place).negated(self.g);
@@ -151,12 +146,8 @@ impl Integrator<'_> {
     ) -> Id {
         let half = call(self.g, Prim::Abs, self.path.half);
         let (_, rate, places) = self.in_widths(q, LEAST_WIDTH_BESIDE);
+        let derivatives = self.derivatives(polynomials, degree);
         let one = self.g.real(1.0);
-        let mut derivatives = vec![polynomials.iter().fold(one, |p, &r| mul(self.g, p, r))];
-        for _ in 0..degree {
-            let last = derivatives[derivatives.len() - 1];
-            derivatives.push(self.slope(last));
-        }
         let (zero, less) = (self.g.real(0.0), self.g.real(-1.0));
         // on which side of the centre the ends are
         let sides = places.map(|u| if_less(self.g, u, zero, less, one));
