@@ -57,6 +57,11 @@ fn real_sum_rest(a: real, b: real, s: real) -> real {
     return num(0.0);
 }
 
+/// The same of a b + c.
+fn real_mul_add_rest(a: real, b: real, c: real, s: real) -> real {
+    return num(0.0);
+}
+
 /// -b/a, 0 where a is next to nothing or the quotient is no number of moderate size.
 fn real_foot(a: real, b: real) -> real {
     if is_below(real_abs(a), 1e-30) {

@@ -78,7 +78,10 @@ impl Integrator<'_> {
             self.path = near;
             sum = match self.ridge(root) {
                 Some(value) => value,
-                None => self.piecewise(root, &cuts, Self::smooth)?,
+                None => {
+                    let cuts = self.cuts_with_lows(root)?;
+                    self.piecewise(root, &cuts, Self::smooth)?
+                }
             };
         }
         // beyond the last cut every condition is what it is one further

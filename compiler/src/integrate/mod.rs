@@ -217,7 +217,7 @@ impl<'g> Integrator<'g> {
     fn in_rebased_pieces(&mut self, root: Id) -> Result<Id, Problem> {
         let whole = self.path.clone();
         self.path = whole.rebased(self.g);
-        let cuts = self.cuts(root);
+        let cuts = self.cuts_with_lows(root);
         let value = cuts.and_then(|cuts| self.piecewise(root, &cuts, Self::smooth));
         self.path = whole;
         value

@@ -40,6 +40,19 @@ pub fn product_rest(g: &mut Graph, a: Id, b: Id, p: Id) -> Id {
     g.apply(Prim::MulAdd, &[a, b, back])
 }
 
+/// a b + c - s
+pub fn mul_add_rest(g: &mut Graph, [a, b, c]: [Id; 3], s: Id) -> Id {
+    let is_exact = |id: Id| g.as_real(id).is_some_and(is_power_of_two);
+    if is_zero(g, c) {
+        return product_rest(g, a, b, s);
+    }
+    if is_exact(a) || is_exact(b) {
+        let product = mul(g, a, b);
+        return sum_rest(g, product, c, s);
+    }
+    g.apply(Prim::MulAddRest, &[a, b, c, s])
+}
+
 /// Whether a product with it is not rounded: 0 or a power of two.
 fn is_power_of_two(v: f64) -> bool {
     v == 0.0 || v.is_finite() && v.to_bits() & ((1 << 52) - 1) == 0
@@ -194,6 +207,11 @@ impl Integrator<'_> {
         let Op::Apply(prim) = node.op else {
             return None;
         };
+        if matches!(prim, Prim::Add | Prim::Sub)
+            && let Some(pair) = self.pair_of_multiple(prim, (node.args[0], node.args[1]), known)
+        {
+            return Some(pair);
+        }
         let g = &mut *self.g;
         Some(match prim {
             Prim::Neg => of(0)?.negated(g),
@@ -217,6 +235,37 @@ impl Integrator<'_> {
                 }
             }
             _ => return None,
+        })
+    }
+
+    /// k x + c or k x - c with constants k and c, by one rest.
+    fn pair_of_multiple(
+        &mut self,
+        prim: Prim,
+        (left, right): (Id, Id),
+        known: &FxHashMap<Id, Pair>,
+    ) -> Option<Pair> {
+        let node = self.g.node(left).clone();
+        if node.op != Op::Apply(Prim::Mul) || self.moves(right) {
+            return None;
+        }
+        let (factor, x) = match (self.moves(node.args[0]), self.moves(node.args[1])) {
+            (false, true) => (node.args[0], node.args[1]),
+            (true, false) => (node.args[1], node.args[0]),
+            _ => return None,
+        };
+        let (x, product) = (*known.get(&x)?, *known.get(&left)?);
+        let value = self.g.apply(prim, &[product.value, right]);
+        let constant = if prim == Prim::Sub {
+            self.g.neg(right)
+        } else {
+            right
+        };
+        let own = mul_add_rest(self.g, [factor, x.value, constant], value);
+        let beside = mul(self.g, factor, x.rest);
+        Some(Pair {
+            value,
+            rest: add(self.g, own, beside),
         })
     }
 

@@ -4,7 +4,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
 use super::arithmetic::{add, if_less, is_zero, mul, mul_add, scale, sub};
-use super::pair::{Pair, product_rest, sum_rest};
+use super::pair::{Pair, mul_add_rest, sum_rest};
 use crate::ir::{Binder, Graph, Id, Op, Prim};
 
 /// A coordinate that changes along the line: origin + t slope.
@@ -72,14 +72,24 @@ impl Path {
             mid: origin,
             slope,
         };
-        Self::of_coordinates(g, lines.iter().map(line).collect(), ends)
+        Self::of_coordinates(g, lines.iter().map(line).collect(), ends, [low; 2])
     }
 
-    /// The interval between two ends of a line, whose values in the middle are still to be found.
-    fn of_coordinates(g: &mut Graph, mut coordinates: Vec<Coordinate>, ends: [Id; 2]) -> Self {
+    /// The interval between two ends of a line, with what they are beyond their rounded t; values in the middle are still
+    /// to be found.
+    fn of_coordinates(
+        g: &mut Graph,
+        mut coordinates: Vec<Coordinate>,
+        ends: [Id; 2],
+        lows: [Id; 2],
+    ) -> Self {
         // from half ends, so that neither overflows
         let halves = ends.map(|end| scale(g, 0.5, end));
         let (middle, half) = (add(g, halves[0], halves[1]), sub(g, halves[1], halves[0]));
+        let lows = lows.map(|low| scale(g, 0.5, low));
+        let (beside, longer) = (add(g, lows[0], lows[1]), sub(g, lows[1], lows[0]));
+        let half = add(g, half, longer);
+        let rest = sum_rest(g, halves[0], halves[1], middle);
         for c in &mut coordinates {
             c.mid = mid(g, c, ends, middle, half);
         }
@@ -87,14 +97,20 @@ impl Path {
             coordinates,
             ends,
             middle,
-            middle_low: sum_rest(g, halves[0], halves[1], middle),
+            middle_low: add(g, rest, beside),
             half,
         }
     }
 
     /// The part of the line between two other ends.
     pub fn between(&self, g: &mut Graph, ends: [Id; 2]) -> Self {
-        Self::of_coordinates(g, self.coordinates.clone(), ends)
+        let low = g.real(0.0);
+        self.between_cuts(g, ends, [low; 2])
+    }
+
+    /// The same with what the ends are beyond their rounded t.
+    pub fn between_cuts(&self, g: &mut Graph, ends: [Id; 2], lows: [Id; 2]) -> Self {
+        Self::of_coordinates(g, self.coordinates.clone(), ends, lows)
     }
 
     /// The same line and interval with t counted from the middle of the interval, where that is further from t = 0 than
@@ -113,7 +129,7 @@ impl Path {
             let there = c.at(g, start);
             (c.origin, c.low) = (there.value, there.rest);
         }
-        Self::of_coordinates(g, coordinates, ends)
+        Self::of_coordinates(g, coordinates, ends, [zero; 2])
     }
 
     /// The same line, seen from t = 0.
@@ -184,10 +200,7 @@ impl Coordinate {
     fn at(&self, g: &mut Graph, t: Id) -> Pair {
         let near = line(g, self.origin, t, self.slope);
         let value = add(g, near, self.low);
-        let product = mul(g, t, self.slope);
-        let step = product_rest(g, t, self.slope, product);
-        let sum = sum_rest(g, product, self.origin, value);
-        let rest = add(g, step, sum);
+        let rest = mul_add_rest(g, [t, self.slope, self.origin], value);
         Pair {
             value,
             rest: add(g, rest, self.low),
@@ -319,8 +332,12 @@ fn copy(
 /// an integral within it is to the rules.
 pub fn without_rests(g: &mut Graph, root: Id) -> Id {
     let order = cone(g, &[root]);
-    let is_rest =
-        |g: &Graph, id: Id| matches!(g.node(id).op, Op::Apply(Prim::MulAdd | Prim::SumRest));
+    let is_rest = |g: &Graph, id: Id| {
+        matches!(
+            g.node(id).op,
+            Op::Apply(Prim::MulAdd | Prim::SumRest | Prim::MulAddRest)
+        )
+    };
     if !order.iter().any(|&id| is_rest(g, id)) {
         return root;
     }
@@ -338,7 +355,7 @@ pub fn without_rests(g: &mut Graph, root: Id) -> Id {
                 let product = mul(g, a, b);
                 add(g, product, c)
             }
-            (Op::Apply(Prim::SumRest), _) => g.real(0.0),
+            (Op::Apply(Prim::SumRest | Prim::MulAddRest), _) => g.real(0.0),
             _ => copy(g, id, &map, &mut binders),
         };
         map.insert(id, new);

@@ -148,6 +148,14 @@ pub fn sum_rest(a: f64, b: f64, s: f64) -> f64 {
     if rest.is_finite() { rest } else { 0.0 }
 }
 
+/// a b + c - s exactly, where s is near that, 0 where that is no number.
+pub fn mul_add_rest([a, b, c]: [f64; 3], s: f64) -> f64 {
+    let (product, low) = super::complex::two_product(a, b);
+    let (sum, rest) = super::complex::two_sum(product, c);
+    let rest = (sum - s) + (rest + low);
+    if rest.is_finite() { rest } else { 0.0 }
+}
+
 /// √x, NaN below 0.
 pub fn sqrt(x: f64) -> f64 {
     x.sqrt()

@@ -298,7 +298,7 @@ fn masses() -> [Row; 4] {
 }
 
 /// Places on a line.
-fn places() -> [Row; 3] {
+fn places() -> [Row; 4] {
     [
         Row {
             prim: Prim::MulAdd,
@@ -331,6 +331,21 @@ fn places() -> [Row; 3] {
             gpu: Gpu::Library("real_sum_rest", None),
             gpu_complex: "",
             cost: weight(8),
+        },
+        Row {
+            prim: Prim::MulAddRest,
+            mnemonic: "fma_rest",
+            names: &[],
+            usage: "",
+            doc: "a b + c - s exactly, where s is that rounded; 0 where that is no number: locally constant. The product is not \
+                  rounded where the adapter's fma is one operation",
+            typing: Typing::Real(4),
+            real: Some(|a| real::mul_add_rest([a[0], a[1], a[2]], a[3])),
+            complex: None,
+            derivative: Derivative::Zero,
+            gpu: Gpu::Library("real_mul_add_rest", None),
+            gpu_complex: "",
+            cost: weight(11),
         },
         Row {
             prim: Prim::Foot,
