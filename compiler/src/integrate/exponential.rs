@@ -167,18 +167,17 @@ impl Integrator<'_> {
         self.affine(multiple)
     }
 
-    /// Σ n (mid + s slope), `None` of nothing.
+    /// Σ n phase, `None` of nothing.
     fn combined(&mut self, phases: &[(Id, i32)]) -> Option<Affine> {
-        let mut sum: Option<Affine> = None;
+        let mut sum: Option<Id> = None;
         for &(phase, n) in phases {
-            let one = self.affine(phase);
-            let one = self.multiple(f64::from(n), one);
+            let one = scale(self.g, f64::from(n), phase);
             sum = Some(match sum {
                 None => one,
-                Some(sum) => self.sum_of_affine(sum, one),
+                Some(sum) => add(self.g, sum, one),
             });
         }
-        sum
+        sum.map(|sum| self.affine(sum))
     }
 
     fn sum_of(&mut self, waves: &[Wave]) -> Id {
