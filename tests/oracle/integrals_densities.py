@@ -261,6 +261,21 @@ def fractions():
     return [D(t, m, speed=3) for t, m in cases]
 
 
+def gaussians():
+    """Gaussians by waves and polynomials, and exponentials of squares that grow."""
+    by_waves = [
+        ("x^2*exp(-(x^2+y^2+z^2))*cos(5*y)", 5), ("x*exp(-4*x^2)*sin(20*x)", 20), ("y*z*exp(-r*(x^2+y^2))*cos(x+z)", 4),
+        ("(1-4*x^2)*exp(-2*x^2)*sin(3*x)*cos(2*y)", 6), ("x^3*exp(-x^2-y)*cos(p*x-q*z)", 4),
+        ("x^4*exp(-0.01*x^2)*sin(2*y)", 3), ("(x+y-z)*exp(-9*(x^2+y^2+z^2))*sin(x)^2", 8),
+        ("x^7*exp(-2*(x^2+z^2))*cos(4*y)", 6),
+    ]
+    growing = [
+        ("x^3*exp(x^2)", 4), ("exp(x^2)", 4), ("y*exp(x^2+y^2-z)", 4), ("p*exp(0.5*(x^2+y^2+z^2))", 4),
+        ("(x-2*y)^2*exp(0.25*x^2+y)", 3), ("exp(x*y)", 3), ("z*exp(x^2-y^2)", 4), ("x^7*exp(0.01*x^2)", 2),
+    ]
+    return [D(t, ["x", "x^2+y^2+z^2"], speed=s) for t, s in by_waves + growing]
+
+
 def rest():
     """Without closed form: for the nodes."""
     ball = ["x^2+y^2+z^2"]
@@ -290,5 +305,6 @@ def classes():
         "random": random_densities(),
         "products": products(),
         "fractions": fractions(),
+        "gaussians": gaussians(),
         "rest": rest(),
     }

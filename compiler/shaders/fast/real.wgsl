@@ -8,6 +8,16 @@ fn is_moderate(squared: f32) -> bool {
     return bitcast<u32>(squared) - 0x0da24260u < 0x6f4e7b62u;
 }
 
+/// a + b - s where s is the sum: not looked for.
+fn real_sum_rest(a: f32, b: f32, s: f32) -> f32 {
+    return 0.0;
+}
+
+/// The same of a b + c.
+fn real_mul_add_rest(a: f32, b: f32, c: f32, s: f32) -> f32 {
+    return 0.0;
+}
+
 /// √(x² + y²), with care where a square leaves the range.
 fn real_hypot(x: f32, y: f32) -> f32 {
     let squared = x * x + y * y;

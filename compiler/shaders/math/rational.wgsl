@@ -68,6 +68,24 @@ fn real_atan_quotient(z: f32, n: i32) -> f32 {
     return value;
 }
 
+/// a + b - s exactly, where s is near the sum; 0 where that is no number.
+fn real_sum_rest(a: f32, b: f32, s: f32) -> f32 {
+    let zero = hidden_zero_of(a, b);
+    let sum = two_sum(opaque(a, zero), opaque(b, zero), zero);
+    let rest = opaque(sum.x - s, zero) + sum.y;
+    return select(0.0, rest, is_finite(rest));
+}
+
+/// a b + c - s exactly, where s is near that; 0 where that is no number.
+fn real_mul_add_rest(a: f32, b: f32, c: f32, s: f32) -> f32 {
+    let zero = hidden_zero_of(a, b);
+    let product = opaque(a * b, zero);
+    let low = fma(a, b, -product);
+    let sum = two_sum(product, opaque(c, zero), zero);
+    let rest = opaque(sum.x - s, zero) + (sum.y + low);
+    return select(0.0, rest, is_finite(rest));
+}
+
 /// -b/a, 0 where a is next to nothing or the quotient is no number of moderate size.
 fn real_foot(a: f32, b: f32) -> f32 {
     let place = -b / a;

@@ -52,6 +52,16 @@ fn real_atan_quotient(z: real, n: i32) -> real {
     return value;
 }
 
+/// a + b - s where s is the sum: what these numbers are rounded by is not looked for.
+fn real_sum_rest(a: real, b: real, s: real) -> real {
+    return num(0.0);
+}
+
+/// The same of a b + c.
+fn real_mul_add_rest(a: real, b: real, c: real, s: real) -> real {
+    return num(0.0);
+}
+
 /// -b/a, 0 where a is next to nothing or the quotient is no number of moderate size.
 fn real_foot(a: real, b: real) -> real {
     if is_below(real_abs(a), 1e-30) {

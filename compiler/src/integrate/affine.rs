@@ -6,6 +6,7 @@ use super::algebraic::{MAX_DEGREE_BESIDE_POWER, NEAR_NODES};
 use super::arithmetic::{add, call, if_less, mul, scale, square, total};
 use super::exponential::NEAR;
 use super::legendre::nodes_for_exponential;
+use super::pair::Pair;
 use super::quadratic::Affine;
 use super::rule::Rule;
 use super::term::Factor;
@@ -199,7 +200,7 @@ impl Integrator<'_> {
 
     /// Nodes of the integrand where |w| < |x_m|/2, so that the zero of x is twice as far as the ends.
     fn near_zero_or(&mut self, x: Affine, integrand: Id, degree: u32, far: Id) -> Id {
-        let near = self.gauss(integrand, NEAR_NODES + degree.div_ceil(2) as usize);
+        let near = self.local_gauss(integrand, NEAR_NODES + degree.div_ceil(2) as usize);
         let w = mul(self.g, x.slope, self.path.half);
         let [w, mid] = [w, x.mid].map(|v| call(self.g, Prim::Abs, v));
         let limit = scale(self.g, 0.5, mid);
@@ -344,8 +345,16 @@ impl Integrator<'_> {
         let beside = scale(self.g, -2.0, upright.least);
         let exponent = if_less(self.g, upright.least, zero, zero, beside);
         let size = call(self.g, Prim::Exp, exponent);
+        // what the lesser end is rounded by
+        let rests = self.pair_at_ends(of).map(|end| end.rest);
+        let rest = if_less(self.g, upright.growth, zero, rests[1], rests[0]);
+        let turned = self.g.neg(rest);
+        let rest = if_less(self.g, x.mid, zero, turned, rest);
+        let rest = scale(self.g, -2.0, rest);
+        let rest = if_less(self.g, upright.least, zero, zero, rest);
         let wide = scale(self.g, -4.0, w);
         let quotient = call(self.g, Prim::Exprel, wide);
+        let quotient = self.grown(quotient, rest);
         let mut value = mul(self.g, size, quotient);
         value = scale(self.g, 4.0, value);
         let one = self.g.real(1.0);
@@ -377,7 +386,7 @@ impl Integrator<'_> {
             }
             _ => (self.g.real(0.5), nodes_for_exponential(2.0, 0, NEAR)),
         };
-        let near = self.gauss(function, nodes);
+        let near = self.local_gauss(function, nodes);
         if_less(self.g, w, limit, near, far)
     }
 
@@ -420,17 +429,26 @@ impl Integrator<'_> {
         let x = self.affine(of);
         let w = mul(self.g, x.slope, self.path.half);
         let (zero, falling) = (self.g.real(0.0), self.g.neg(w));
-        let [low, high] = [0, 1].map(|k| if_less(self.g, w, zero, x.ends[1 - k], x.ends[k]));
+        let sides = self.pair_at_ends(of);
+        let [low, high] = [0, 1].map(|k| Pair::if_less(self.g, w, zero, sides[1 - k], sides[k]));
         let w = if_less(self.g, w, zero, falling, w);
-        let [from, to] = [low, high].map(|end| call(self.g, Prim::Log1pExp, end));
+        // left of 0 it is an exponential, which the rest of its exponent changes by that
+        let [from, to] = [low, high].map(|end| {
+            let value = call(self.g, Prim::Log1pExp, end.value);
+            let rest = if_less(self.g, end.value, zero, end.rest, zero);
+            self.grown(value, rest)
+        });
         let width = scale(self.g, 2.0, w);
         let difference = self.g.sub(to, from);
         let far = self.g.div(difference, width);
         let one = self.g.real(1.0);
-        let turned = self.g.neg(low);
+        let turned = self.g.neg(low.value);
         let fall = call(self.g, Prim::Exp, turned);
         let base = self.g.add(one, fall);
         let value = self.g.div(one, base);
+        let beside = self.g.sub(one, value);
+        let rest = mul(self.g, beside, low.rest);
+        let value = self.grown(value, rest);
         let growth = call(self.g, Prim::Expm1, width);
         let inner = mul(self.g, value, growth);
         let (quotient, log) = (

@@ -61,8 +61,12 @@ impl Integrator<'_> {
         if degree > MAX_DEGREE_BESIDE_POWER {
             return Err(self.bound_beside(source));
         }
+        let whole = self.path.clone();
+        if !polynomials.is_empty() {
+            self.path = whole.rebased(self.g);
+        }
         let bowl = self.bowl(base);
-        match (twice, degree) {
+        let found = match (twice, degree) {
             (-2, 0) => Ok((self.reciprocal(&bowl), Rule::Reciprocal)),
             (-1, 0) => Ok((self.reciprocal_root(&bowl), Rule::ReciprocalRoot)),
             (1, 0) => Ok((self.root_alone(&bowl), Rule::Root)),
@@ -82,7 +86,9 @@ impl Integrator<'_> {
                 ))
             }
             _ => Err(not_found(self)),
-        }
+        };
+        self.path = whole;
+        found
     }
 
     pub(super) fn bound_beside(&self, source: Id) -> Problem {
@@ -107,13 +113,14 @@ impl Integrator<'_> {
         if degree > MAX_DEGREE_BESIDE_POWER {
             return Err(self.bound_beside(source));
         }
+        let whole = self.path.clone();
+        self.path = whole.rebased(self.g);
         let bowl = self.bowl(base);
         let far = self.moments(&bowl, polynomials, degree, Moments::Log);
         let integrand = self.beside(polynomials, super::term::Factor::Log(base));
-        Ok((
-            self.near_or(&bowl, integrand, degree, far),
-            Rule::LogQuadratic,
-        ))
+        let value = self.near_or(&bowl, integrand, degree, far);
+        self.path = whole;
+        Ok((value, Rule::LogQuadratic))
     }
 
     pub(super) fn beside(&mut self, polynomials: &[Id], factor: super::term::Factor) -> Id {
@@ -144,7 +151,7 @@ impl Integrator<'_> {
 
     /// The nodes of the integrand where the interval is short, else the other form.
     fn near_or(&mut self, bowl: &Bowl, integrand: Id, degree: u32, far: Id) -> Id {
-        let near = self.gauss(integrand, NEAR_NODES + degree.div_ceil(2) as usize);
+        let near = self.local_gauss(integrand, NEAR_NODES + degree.div_ceil(2) as usize);
         let reach = call(self.g, Prim::Abs, bowl.reach);
         let mut limit = scale(self.g, 0.25, bowl.q.c);
         if !bowl.is_sum_of_squares {
@@ -169,14 +176,36 @@ impl Integrator<'_> {
         if_less(self.g, bowl.q.c, zero, less, one)
     }
 
-    /// ∫ 1/q = L atan2(√(D L²), E)/√(D L²), which is one formula through D = 0; of -q where q is negative.
+    /// ∫ 1/q = L atan2(√(D L²), E)/√(D L²), which is one formula through D = 0; of -q where q is negative. Beside a pole
+    /// (L/√(-D L²)) log((E + √(-D L²))/√(q₀ q₁)), as q₀ q₁ = E² + D L².
     pub(super) fn reciprocal(&mut self, bowl: &Bowl) -> Id {
         let sign = self.sign_of(bowl);
         let e = mul(self.g, sign, bowl.q.chord);
         let p = self.width_of_triangle(bowl);
-        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, e]);
+        let ends = bowl.ends.map(|q| mul(self.g, sign, q));
+        let quotient = self.angle_between(bowl, (p, e), ends);
         let length = mul(self.g, sign, bowl.length);
         mul(self.g, length, quotient)
+    }
+
+    /// ∫ dt/q over its length, by p = D L², E and the values of q at both ends, none of which is negative.
+    pub(super) fn angle_between(&mut self, bowl: &Bowl, (p, e): (Id, Id), ends: [Id; 2]) -> Id {
+        let quotient = self.g.apply(Prim::Atan2Quotient, &[p, e]);
+        if bowl.is_sum_of_squares {
+            return quotient;
+        }
+        // beside a pole E² and -D L² are nearly the same, and what is left is the product of the ends
+        let back = self.g.neg(p);
+        let root = call(self.g, Prim::Sqrt, back);
+        let sum = add(self.g, e, root);
+        let roots = ends.map(|q| call(self.g, Prim::Sqrt, q));
+        let product = mul(self.g, roots[0], roots[1]);
+        let ratio = self.g.div(sum, product);
+        let log = call(self.g, Prim::Log, ratio);
+        let beside = self.g.div(log, root);
+        let reach = square(self.g, e);
+        let limit = scale(self.g, 0.5, reach);
+        if_less(self.g, limit, back, beside, quotient)
     }
 
     pub(super) fn roots(&mut self, bowl: &Bowl) -> ([Id; 2], Id) {

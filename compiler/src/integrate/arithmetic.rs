@@ -58,20 +58,29 @@ pub fn mul_add(g: &mut Graph, a: Id, b: Id, c: Id) -> Id {
     g.apply(Prim::MulAdd, &[a, b, c])
 }
 
-/// v · (w x) with the constants v and w multiplied before.
+/// v · (w x), or v · ((w x) y), with the constants v and w multiplied before.
 fn folded(g: &mut Graph, v: f64, b: Id) -> Option<Id> {
-    let node = g.node(b);
-    if node.op != crate::ir::Op::Apply(Prim::Mul) {
-        return None;
-    }
-    let (x, y) = (node.args[0], node.args[1]);
-    let (constant, rest) = match (g.as_real(x), g.as_real(y)) {
-        (Some(w), None) => (w, y),
-        (None, Some(w)) => (w, x),
-        _ => return None,
+    let product = |g: &Graph, id: Id| {
+        let node = g.node(id);
+        (node.op == crate::ir::Op::Apply(Prim::Mul)).then(|| (node.args[0], node.args[1]))
     };
-    let constant = g.real(v * constant);
-    Some(g.mul(constant, rest))
+    let by_constant = |g: &Graph, id: Id| {
+        let (x, y) = product(g, id)?;
+        match (g.as_real(x), g.as_real(y)) {
+            (Some(w), None) => Some((w, y)),
+            (None, Some(w)) => Some((w, x)),
+            _ => None,
+        }
+    };
+    if let Some((w, rest)) = by_constant(g, b) {
+        let constant = g.real(v * w);
+        return Some(g.mul(constant, rest));
+    }
+    let (x, y) = product(g, b)?;
+    let (w, rest) = by_constant(g, x)?;
+    let constant = g.real(v * w);
+    let left = g.mul(constant, rest);
+    Some(g.mul(left, y))
 }
 
 /// `v · a`

@@ -1,7 +1,7 @@
 //! Polynomials beside waves and exponentials: Legendre coefficients with spherical Bessel functions, or by parts.
 
 use super::Integrator;
-use super::arithmetic::{add, call, if_less, mul, scale, sub};
+use super::arithmetic::{add, call, if_less, mul, scale};
 use super::exponential::{NEAR, Values, Wave};
 use super::legendre::{gauss_legendre, nodes_for_exponential};
 use super::path::Body;
@@ -95,30 +95,12 @@ impl Integrator<'_> {
 
     /// The mean of a polynomial beside exponentials and waves that change by less than `limit` together.
     fn by_nodes(&mut self, product: Id, degree: u32, waves: &[(Prim, Affine)], limit: f64) -> Id {
-        let leaves = self.path.coordinates.iter().map(|c| c.leaf);
-        let body = Body::new(self.g, &[product], leaves);
-        let mut sum = self.g.real(0.0);
-        for node in gauss_legendre(nodes_for_exponential(limit, degree as usize, NEAR)) {
-            let sides: &[f64] = if node.place == 0.0 {
-                &[1.0]
-            } else {
-                &[1.0, -1.0]
-            };
-            for &side in sides {
-                let s = scale(self.g, side * node.place, self.path.half);
-                let values = self.path.point(self.g, s);
-                let mut value = body.at(self.g, &values)[0];
-                for &(prim, a) in waves {
-                    let step = mul(self.g, s, a.slope);
-                    let argument = add(self.g, a.mid, step);
-                    let factor = call(self.g, prim, argument);
-                    value = mul(self.g, value, factor);
-                }
-                let part = scale(self.g, 0.5 * node.weight, value);
-                sum = add(self.g, sum, part);
-            }
-        }
-        sum
+        let integrand = waves.iter().fold(product, |product, &(prim, a)| {
+            let factor = call(self.g, prim, a.of);
+            mul(self.g, product, factor)
+        });
+        let count = nodes_for_exponential(limit, degree as usize, NEAR);
+        self.local_mean(integrand, count)
     }
 
     /// The mean over the path of a polynomial beside a sine or cosine: Σ cₙ iⁿ jₙ, even and odd orders apart.
@@ -132,14 +114,8 @@ impl Integrator<'_> {
             *sum = add(self.g, *sum, part);
         }
         let [even, odd] = sums;
-        let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, phase.mid));
-        if prim == Prim::Sin {
-            let (left, right) = (mul(self.g, even, sine), mul(self.g, odd, cosine));
-            add(self.g, left, right)
-        } else {
-            let (left, right) = (mul(self.g, even, cosine), mul(self.g, odd, sine));
-            sub(self.g, left, right)
-        }
+        let middle = self.pair_in_middle(phase.of);
+        self.turned(prim, middle, even, odd)
     }
 
     /// cₙ = (n + ½) Σ wⱼ Pₙ(xⱼ) p(h xⱼ), exact with one node more than the degree; sums of both sides of the middle

@@ -14,6 +14,18 @@ pub const MAX_BREAKS: usize = 32;
 /// Greatest number of forms that what a condition compares may take by other conditions in it.
 const MAX_FORMS: usize = 16;
 
+/// A place where conditions change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Cut {
+    /// t there.
+    t: Id,
+    /// What it is beyond, where the integrand may jump: to the length of a short piece that counts.
+    low: Id,
+}
+
+/// The most that a cut is beyond its t, as a part of it.
+const MOST_LOW: f64 = 1e-6;
+
 /// How a piece is integrated, given the integrand without its conditions.
 type OnPiece<'g> = fn(&mut Integrator<'g>, Id) -> Result<Id, Problem>;
 
@@ -24,19 +36,28 @@ impl<'g> Integrator<'g> {
     /// # Errors
     /// A condition compares something else than polynomials of degree 2 or less and lengths, or there are too many.
     pub(super) fn cuts(&mut self, root: Id) -> Result<Vec<Id>, Problem> {
+        let cuts = self.cuts_with_lows(root)?;
+        Ok(cuts.into_iter().map(|cut| cut.t).collect())
+    }
+
+    pub(super) fn cuts_with_lows(&mut self, root: Id) -> Result<Vec<Cut>, Problem> {
         let mut forms: FxHashMap<Id, Vec<Id>> = FxHashMap::default();
-        let mut zeros: Vec<Id> = Vec::new();
+        // each with whether the integrand may jump there
+        let mut zeros: Vec<(Id, bool)> = Vec::new();
         for (node, a, b) in self.conditions(root) {
             let left = self.forms(a, &mut forms)?;
             let right = match b {
                 Some(b) => self.forms(b, &mut forms)?,
                 None => vec![self.g.real(0.0)],
             };
+            let jumps = self.g.ty(node) == Ty::Bool
+                || matches!(self.g.node(node).op, Op::Apply(Prim::Sign));
             for &a in &left {
                 for &b in &right {
                     let zero = self.difference(a, b);
-                    if !zeros.contains(&zero) {
-                        zeros.push(zero);
+                    match zeros.iter_mut().find(|z| z.0 == zero) {
+                        Some(known) => known.1 |= jumps,
+                        None => zeros.push((zero, jumps)),
                     }
                     if zeros.len() > MAX_BREAKS {
                         return Err(self.problem(node, Reason::Bound("conditions", MAX_BREAKS)));
@@ -45,12 +66,12 @@ impl<'g> Integrator<'g> {
             }
         }
         let mut cuts = Vec::new();
-        // t at the zeros, so that they are exact to the distance from the origin
+        // t at the zeros, so that they are exact to their distance from t = 0
         let whole = self.path.clone();
         self.path = whole.from_origin(self.g);
         let found = zeros
             .into_iter()
-            .try_for_each(|zero| self.zeros(zero, &mut cuts));
+            .try_for_each(|(zero, jumps)| self.zeros(zero, jumps, &mut cuts));
         self.path = whole;
         found?;
         cuts.dedup();
@@ -157,23 +178,41 @@ impl<'g> Integrator<'g> {
     }
 
     /// The zeros of a form.
-    fn zeros(&mut self, of: Id, out: &mut Vec<Id>) -> Result<(), Problem> {
-        match self.degree(of) {
-            Some(0) => {}
-            Some(1) => {
-                let cut = self.zero_of_affine(of);
-                out.push(cut);
-            }
-            Some(2) => {
-                let cuts = self.zeros_of_quadratic(of);
-                out.extend(cuts);
-            }
+    fn zeros(&mut self, of: Id, jumps: bool, out: &mut Vec<Cut>) -> Result<(), Problem> {
+        let found: SmallVec<[Id; 2]> = match self.degree(of) {
+            Some(0) => SmallVec::new(),
+            Some(1) => SmallVec::from_slice(&[self.zero_of_affine(of)]),
+            Some(2) => SmallVec::from_slice(&self.zeros_of_quadratic(of)),
             _ => match self.without_roots(of) {
-                Some(polynomial) if polynomial != of => self.zeros(polynomial, out)?,
+                Some(polynomial) if polynomial != of => return self.zeros(polynomial, jumps, out),
                 _ => return Err(self.problem(of, Reason::Condition)),
             },
+        };
+        for t in found {
+            let low = if jumps {
+                self.beyond_zero(of, t)
+            } else {
+                self.g.real(0.0)
+            };
+            out.push(Cut { t, low });
         }
         Ok(())
+    }
+
+    /// One step of Newton's method from a zero that was rounded, with what is rounded there known.
+    fn beyond_zero(&mut self, of: Id, t: Id) -> Id {
+        let value = self.pair_at(of, t).total(self.g);
+        let slope = self.slope(of);
+        let slope = self.at_place(&[slope], t)[0];
+        let step = super::arithmetic::div(self.g, value, slope);
+        if super::arithmetic::is_zero(self.g, step) {
+            return step;
+        }
+        let step = self.g.neg(step);
+        let sizes = [step, t].map(|v| call(self.g, Prim::Abs, v));
+        let most = super::arithmetic::scale(self.g, MOST_LOW, sizes[1]);
+        let zero = self.g.real(0.0);
+        if_less(self.g, sizes[0], most, step, zero)
     }
 
     /// For u + k √q with u of degree 0 or 1: the polynomial k² q - u². For k √q - m √r: k² q - m² r. They are 0
@@ -236,12 +275,14 @@ impl<'g> Integrator<'g> {
     pub(super) fn piecewise(
         &mut self,
         root: Id,
-        cuts: &[Id],
+        cuts: &[Cut],
         on_piece: OnPiece<'g>,
     ) -> Result<Id, Problem> {
         let whole = self.path.clone();
         let start = self.g.apply(Prim::Min, &whole.ends);
         let reach = self.g.apply(Prim::Max, &whole.ends);
+        let low = self.g.real(0.0);
+        let [start, reach] = [start, reach].map(|t| Cut { t, low });
         let total = if let &[cut] = cuts {
             let place = self.next_cut(start, &[cut], reach);
             let left = self.piece(root, start, place, on_piece)?;
@@ -263,28 +304,33 @@ impl<'g> Integrator<'g> {
     fn walk(
         &mut self,
         root: Id,
-        cuts: &[Id],
-        (start, reach): (Id, Id),
+        cuts: &[Cut],
+        (start, reach): (Cut, Cut),
         on_piece: OnPiece<'g>,
     ) -> Result<Id, Problem> {
         let binder = self.g.binder();
-        let (place, sum) = (
-            self.g.new_state(binder, Ty::Real),
-            self.g.new_state(binder, Ty::Real),
-        );
+        let zero = self.g.real(0.0);
+        let mut leaf = || self.g.new_state(binder, Ty::Real);
+        let has_lows = cuts.iter().any(|cut| cut.low != zero);
+        let (t, sum) = (leaf(), leaf());
+        let low = if has_lows { leaf() } else { zero };
+        let place = Cut { t, low };
         let next = self.next_cut(place, cuts, reach);
         let piece = self.piece(root, place, next, on_piece)?;
         let longer = self.g.add(sum, piece);
-        let zero = self.g.real(0.0);
         let pieces = u32::try_from(cuts.len() + 1).unwrap_or(u32::MAX);
+        let mut states = vec![(t, start.t, next.t), (sum, zero, longer)];
+        if has_lows {
+            states.push((low, zero, next.low));
+        }
         let repeated = Loop {
             binder,
             count: self.g.real(f64::from(pieces)),
             limit: pieces,
-            until: Some(self.g.apply(Prim::LessEqual, &[reach, place])),
-            states: [(place, start, next), (sum, zero, longer)]
-                .map(|(leaf, init, next)| State { leaf, init, next })
+            until: Some(self.g.apply(Prim::LessEqual, &[reach.t, t])),
+            states: states
                 .into_iter()
+                .map(|(leaf, init, next)| State { leaf, init, next })
                 .collect(),
         };
         let repeated = self.g.repeat(&repeated);
@@ -292,19 +338,22 @@ impl<'g> Integrator<'g> {
     }
 
     /// The first cut beyond a place, or the end.
-    fn next_cut(&mut self, place: Id, cuts: &[Id], end: Id) -> Id {
+    fn next_cut(&mut self, place: Cut, cuts: &[Cut], end: Cut) -> Cut {
         let mut next = end;
         for &cut in cuts {
-            let beyond = if_less(self.g, place, cut, cut, end);
-            next = self.g.apply(Prim::Min, &[next, beyond]);
+            let beyond = if_less(self.g, place.t, cut.t, cut.t, end.t);
+            if cut.low != next.low {
+                next.low = if_less(self.g, beyond, next.t, cut.low, next.low);
+            }
+            next.t = self.g.apply(Prim::Min, &[next.t, beyond]);
         }
         next
     }
 
-    /// The integral from t = a to t = b, where conditions do not change.
-    fn piece(&mut self, root: Id, a: Id, b: Id, on_piece: OnPiece<'g>) -> Result<Id, Problem> {
+    /// The integral between two cuts, where conditions do not change.
+    fn piece(&mut self, root: Id, a: Cut, b: Cut, on_piece: OnPiece<'g>) -> Result<Id, Problem> {
         let whole = self.path.clone();
-        self.path = whole.between(self.g, [a, b]);
+        self.path = whole.between_cuts(self.g, [a.t, b.t], [a.low, b.low]);
         let decided = self.decided(root);
         let value = on_piece(self, decided);
         self.path = whole;

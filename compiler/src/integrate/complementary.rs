@@ -30,7 +30,7 @@ impl Integrator<'_> {
         let left = scale(self.g, 2.0, left);
         let far = self.g.add(left, tails);
         let function = call(self.g, Prim::Erfc, of);
-        let near = self.gauss(function, nodes_for_exponential(2.0, 0, NEAR));
+        let near = self.local_gauss(function, nodes_for_exponential(2.0, 0, NEAR));
         let reach = self.g.add(one, mid);
         let change = self.g.mul(reach, w_size);
         let length = self.length_of_path();

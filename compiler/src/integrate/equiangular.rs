@@ -7,6 +7,9 @@ use super::exponential::NEAR;
 use super::legendre::nodes_for_exponential;
 use crate::ir::{Id, Prim};
 
+/// The hyperbolic angle up to which nodes over the angle are right.
+const HYPERBOLIC: f64 = 4.0;
+
 /// Where a quadratic is least in an interval: t, its value, and half its slope.
 pub(super) struct Least {
     pub place: Id,
@@ -72,7 +75,13 @@ impl Integrator<'_> {
             .iter()
             .fold(one, |product, &p| mul(self.g, product, p));
         let exponent = i32::try_from(k).unwrap_or(0);
-        let count = nodes_for_exponential(std::f64::consts::FRAC_PI_2 * f64::from(k), 0, NEAR);
+        // a hyperbolic angle may be greater: of 4 beside a zero at which |q| is 1e-3 of what it is in the middle
+        let angle = if bowl.is_sum_of_squares {
+            std::f64::consts::FRAC_PI_2
+        } else {
+            HYPERBOLIC
+        };
+        let count = nodes_for_exponential(angle * f64::from(k), 0, NEAR);
         let mut sum = self.g.real(0.0);
         for node in super::gauss_legendre(count) {
             let sides: &[f64] = if node.place == 0.0 {
@@ -142,7 +151,8 @@ impl Integrator<'_> {
             let s = offsets[k];
             let square_s = square(self.g, s);
             let p = mul(self.g, q.discriminant, square_s);
-            let quotient = self.g.apply(Prim::Atan2Quotient, &[p, size]);
+            let end = mul(self.g, sign, q.ends[k]);
+            let quotient = self.angle_between(bowl, (p, size), [size, end]);
             let quotient = mul(self.g, sign, quotient);
             let around = mul(self.g, s, quotient);
             choose(self, around, beside[k])

@@ -4,6 +4,7 @@ use smallvec::SmallVec;
 
 use super::arithmetic::{add, call, if_less, mul, scale, sub, total};
 use super::legendre::nodes_for_exponential;
+use super::pair::Pair;
 use super::path::Body;
 use super::quadratic::Affine;
 use super::rule::Rule;
@@ -74,7 +75,7 @@ impl Integrator<'_> {
         let limit = count as f64;
         let integrand = term.moving(self.g);
         let nodes = nodes_for_exponential(limit, degree as usize, NEAR);
-        let near = self.gauss(integrand, nodes);
+        let near = self.local_gauss(integrand, nodes);
         let limit = self.g.real(limit);
         Ok((if_less(self.g, limit, change, far, near), rule))
     }
@@ -157,33 +158,26 @@ impl Integrator<'_> {
     }
 
     fn sum_of_affine(&mut self, a: Affine, b: Affine) -> Affine {
-        Affine {
-            mid: add(self.g, a.mid, b.mid),
-            slope: add(self.g, a.slope, b.slope),
-            ends: [0, 1].map(|k| add(self.g, a.ends[k], b.ends[k])),
-        }
+        let sum = add(self.g, a.of, b.of);
+        self.affine(sum)
     }
 
     fn multiple(&mut self, v: f64, a: Affine) -> Affine {
-        Affine {
-            mid: scale(self.g, v, a.mid),
-            slope: scale(self.g, v, a.slope),
-            ends: a.ends.map(|end| scale(self.g, v, end)),
-        }
+        let multiple = scale(self.g, v, a.of);
+        self.affine(multiple)
     }
 
-    /// Σ n (mid + s slope), `None` of nothing.
+    /// Σ n phase, `None` of nothing.
     fn combined(&mut self, phases: &[(Id, i32)]) -> Option<Affine> {
-        let mut sum: Option<Affine> = None;
+        let mut sum: Option<Id> = None;
         for &(phase, n) in phases {
-            let one = self.affine(phase);
-            let one = self.multiple(f64::from(n), one);
+            let one = scale(self.g, f64::from(n), phase);
             sum = Some(match sum {
                 None => one,
-                Some(sum) => self.sum_of_affine(sum, one),
+                Some(sum) => add(self.g, sum, one),
             });
         }
-        sum
+        sum.map(|sum| self.affine(sum))
     }
 
     fn sum_of(&mut self, waves: &[Wave]) -> Id {
@@ -199,22 +193,49 @@ impl Integrator<'_> {
         let mean = match (of.exponent, of.wave) {
             (None, None) => self.g.real(1.0),
             (Some(e), None) => self.mean_of_exponential(e),
-            (None, Some((prim, phase))) => {
-                let quotient = if matches!(prim, Prim::Sin | Prim::Cos) {
-                    Prim::Sinc
-                } else {
-                    Prim::Sinhc
-                };
+            (None, Some((prim @ (Prim::Sin | Prim::Cos), phase))) => {
                 let change = mul(self.g, phase.slope, half);
-                let (value, shrink) = (
-                    call(self.g, prim, phase.mid),
-                    call(self.g, quotient, change),
-                );
+                let middle = self.pair_in_middle(phase.of);
+                let (value, shrink) =
+                    (self.wave_of(prim, middle), call(self.g, Prim::Sinc, change));
                 mul(self.g, value, shrink)
             }
+            (None, Some((prim, phase))) => self.mean_of_growth(prim, phase),
             (Some(e), Some((prim, phase))) => self.mean_of_damped_wave(e, prim, phase),
         };
         scale(self.g, of.scale, mean)
+    }
+
+    /// sinh(α) sinhc(βh), or cosh: both from the ends with their rests, as a large exponent is rounded by more than
+    /// its exponential may be.
+    fn mean_of_growth(&mut self, prim: Prim, of: Affine) -> Id {
+        let ends = self.pair_at_ends(of.of).map(|end| Pair {
+            value: scale(self.g, 0.5, end.value),
+            rest: scale(self.g, 0.5, end.rest),
+        });
+        let middle = ends[0].plus(self.g, ends[1]).normalised(self.g);
+        let back = ends[0].negated(self.g);
+        let change = ends[1].plus(self.g, back).normalised(self.g);
+        let value = call(self.g, prim, middle.value);
+        let shrink = call(self.g, Prim::Sinhc, change.value);
+        let mean = mul(self.g, value, shrink);
+        // each as if it were an exponential, which it is where the rest matters
+        let mut rest = self.g.real(0.0);
+        for pair in [middle, change] {
+            let sign = call(self.g, Prim::Sign, pair.value);
+            let part = mul(self.g, sign, pair.rest);
+            rest = add(self.g, rest, part);
+        }
+        let one = self.g.real(1.0);
+        let factor = add(self.g, one, rest);
+        mul(self.g, mean, factor)
+    }
+
+    /// The end where e^(βs) is greater: its t.
+    fn greater_end(&mut self, change: Id) -> Id {
+        let zero = self.g.real(0.0);
+        let [low, high] = self.path.ends;
+        if_less(self.g, change, zero, low, high)
     }
 
     /// e^(α + |βh|) φ(-2|βh|): the greater end times a number in (0, 1]. One comparison chooses the end and the sign, so
@@ -224,9 +245,14 @@ impl Integrator<'_> {
         let change = mul(self.g, e.slope, self.path.half);
         let back = self.g.neg(change);
         let size = if_less(self.g, change, zero, back, change);
-        let top = if_less(self.g, change, zero, e.ends[0], e.ends[1]);
-        let (top, twice) = (call(self.g, Prim::Exp, top), scale(self.g, -2.0, size));
+        let place = self.greater_end(change);
+        let end = self.pair_at(e.of, place);
+        let (top, twice) = (
+            call(self.g, Prim::Exp, end.value),
+            scale(self.g, -2.0, size),
+        );
         let quotient = call(self.g, Prim::Exprel, twice);
+        let quotient = self.grown(quotient, end.rest);
         mul(self.g, top, quotient)
     }
 
@@ -236,8 +262,8 @@ impl Integrator<'_> {
         let zero = self.g.real(0.0);
         let (w, v) = (mul(self.g, e.slope, half), mul(self.g, phase.slope, half));
         // the phase at the end where the exponential is greater
-        let turn = if_less(self.g, w, zero, phase.ends[0], phase.ends[1]);
-        let top = if_less(self.g, w, zero, e.ends[0], e.ends[1]);
+        let place = self.greater_end(w);
+        let (turn, top) = (self.pair_at(phase.of, place), self.pair_at(e.of, place));
         let [back, falling] = [v, w].map(|x| self.g.neg(x));
         let v = if_less(self.g, w, zero, back, v);
         let w = if_less(self.g, w, zero, falling, w);
@@ -245,16 +271,22 @@ impl Integrator<'_> {
         let argument = self.g.apply(Prim::Complex, &twice);
         let quotient = call(self.g, Prim::Exprel, argument);
         let [re, im] = [Prim::Re, Prim::Im].map(|part| call(self.g, part, quotient));
-        let size = call(self.g, Prim::Exp, top);
-        let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, turn));
-        let mixed = if prim == Prim::Sin {
+        let size = call(self.g, Prim::Exp, top.value);
+        let mixed = self.turned(prim, turn, re, im);
+        let mixed = self.grown(mixed, top.rest);
+        mul(self.g, size, mixed)
+    }
+
+    /// The part of e^(iφ) (re + i im) that the wave is.
+    pub(super) fn turned(&mut self, prim: Prim, angle: Pair, re: Id, im: Id) -> Id {
+        let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| self.wave_of(p, angle));
+        if prim == Prim::Sin {
             let (a, b) = (mul(self.g, sine, re), mul(self.g, cosine, im));
             add(self.g, a, b)
         } else {
             let (a, b) = (mul(self.g, cosine, re), mul(self.g, sine, im));
             sub(self.g, a, b)
-        };
-        mul(self.g, size, mixed)
+        }
     }
 
     /// ∫ p e^λs = [e^λs (p - (p' - (p'' - …)/λ)/λ)/λ] at both ends, for one wave; the derivatives of p at the ends
@@ -269,18 +301,24 @@ impl Integrator<'_> {
         sum
     }
 
-    /// The derivatives of a product of polynomials at both ends.
-    pub(super) fn derivatives_at_ends(
-        &mut self,
-        polynomials: &[Id],
-        degree: u32,
-    ) -> [(f64, Values); 2] {
+    /// A product of polynomials and its derivatives.
+    pub(super) fn derivatives(&mut self, polynomials: &[Id], degree: u32) -> Vec<Id> {
         let one = self.g.real(1.0);
         let mut derivatives = vec![polynomials.iter().fold(one, |p, &q| mul(self.g, p, q))];
         for _ in 0..degree {
             let last = derivatives[derivatives.len() - 1];
             derivatives.push(self.slope(last));
         }
+        derivatives
+    }
+
+    /// The derivatives of a product of polynomials at both ends.
+    pub(super) fn derivatives_at_ends(
+        &mut self,
+        polynomials: &[Id],
+        degree: u32,
+    ) -> [(f64, Values); 2] {
+        let derivatives = self.derivatives(polynomials, degree);
         let leaves = self.path.coordinates.iter().map(|c| c.leaf);
         let body = Body::new(self.g, &derivatives, leaves);
         [(1.0, 1), (-1.0, 0)].map(|(side, which)| {
@@ -291,7 +329,8 @@ impl Integrator<'_> {
 
     /// The antiderivative of a polynomial, given by its derivatives at an end, times one wave.
     pub(super) fn end(&mut self, of: &Wave, side: f64, values: &[Id]) -> Id {
-        let at_end = |_: &mut Self, a: Affine| a.ends[usize::from(side > 0.0)];
+        let place = self.path.ends[usize::from(side > 0.0)];
+        let at_end = |this: &mut Self, a: Affine| this.pair_at(a.of, place);
         let exponent = of.exponent.map(|e| (at_end(self, e), e.slope));
         let wave = of
             .wave
@@ -299,12 +338,13 @@ impl Integrator<'_> {
         match (exponent, wave) {
             (Some((top, rate)), None) => {
                 let sum = self.nested(values, rate);
-                let size = call(self.g, Prim::Exp, top);
+                let size = call(self.g, Prim::Exp, top.value);
+                let sum = self.grown(sum, top.rest);
                 mul(self.g, size, sum)
             }
             (None, Some((prim @ (Prim::Sinh | Prim::Cosh), top, rate))) => {
                 // even derivatives keep the kind of the wave turned once, odd ones turn it back
-                let (sinh, cosh) = (call(self.g, Prim::Sinh, top), call(self.g, Prim::Cosh, top));
+                let [sinh, cosh] = [Prim::Sinh, Prim::Cosh].map(|p| self.wave_of(p, top));
                 let (first, second) = if prim == Prim::Sinh {
                     (cosh, sinh)
                 } else {
@@ -313,7 +353,7 @@ impl Integrator<'_> {
                 self.alternating(values, rate, [first, second], false)
             }
             (None, Some((prim, top, rate))) => {
-                let (sine, cosine) = (call(self.g, Prim::Sin, top), call(self.g, Prim::Cos, top));
+                let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| self.wave_of(p, top));
                 let (first, second) = if prim == Prim::Sin {
                     (self.g.neg(cosine), sine)
                 } else {
@@ -325,15 +365,9 @@ impl Integrator<'_> {
                 let rate = self.g.apply(Prim::Complex, &[rate, speed]);
                 let sum = self.nested(values, rate);
                 let [re, im] = [Prim::Re, Prim::Im].map(|part| call(self.g, part, sum));
-                let size = call(self.g, Prim::Exp, top);
-                let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, turn));
-                let mixed = if prim == Prim::Sin {
-                    let (a, b) = (mul(self.g, sine, re), mul(self.g, cosine, im));
-                    add(self.g, a, b)
-                } else {
-                    let (a, b) = (mul(self.g, cosine, re), mul(self.g, sine, im));
-                    sub(self.g, a, b)
-                };
+                let size = call(self.g, Prim::Exp, top.value);
+                let mixed = self.turned(prim, turn, re, im);
+                let mixed = self.grown(mixed, top.rest);
                 mul(self.g, size, mixed)
             }
             (None, None) => self.g.real(0.0),

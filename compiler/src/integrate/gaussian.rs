@@ -45,12 +45,8 @@ impl Integrator<'_> {
         let negated = self.g.neg(exponent);
         let q = self.quadratic(negated);
         if self.g.as_real(q.a).is_some_and(|a| a < 0.0) || self.is_sum_of_squares(exponent) {
-            // beside some polynomials, as x e^(x²), it is
-            let reason = match degree {
-                0 => Reason::NotElementary("Liouville: e to a growing square"),
-                _ => Reason::NotFound,
-            };
-            return Err(self.problem(term.source, reason));
+            let value = self.growing_gaussian(exponent, &parts.polynomials, degree);
+            return Ok((value, Rule::GrowingGaussian));
         }
         let integrand = term.moving(self.g);
         let (value, rule) = if degree == 0 {
@@ -64,8 +60,7 @@ impl Integrator<'_> {
         if self.is_sum_of_squares(negated) {
             return Ok((value, rule));
         }
-        // with a growing square only intervals on which it changes little
-        let growing = self.gauss(integrand, nodes_for_exponential(4.0, degree as usize, NEAR));
+        let growing = self.growing_gaussian(exponent, &parts.polynomials, degree);
         let zero = self.g.real(0.0);
         Ok((if_less(self.g, q.a, zero, growing, value), rule))
     }
@@ -105,21 +100,25 @@ impl Integrator<'_> {
             if_less(self.g, narrow, far, own, width),
         );
         let mass = self.g.apply(Prim::GaussMassScaled, &[centre, width]);
-        let depth = self.g.div(q.discriminant, q.a);
-        let end = self.g.apply(Prim::Min, &q.ends);
+        // where the centre is outside, the exponent goes one way: the end from which it falls
+        let [start, end] = self.path.ends;
+        let fall = mul(self.g, q.b, self.path.half);
+        let first = if_less(self.g, zero, fall, start, end);
         let product = self.g.mul(places[0], places[1]);
-        let exponent = if_less(self.g, product, zero, depth, end);
-        let fall = self.g.neg(exponent);
-        let top = call(self.g, Prim::Exp, fall);
+        let place = if_less(self.g, product, zero, q.foot, first);
+        let exponent = self.pair_at(q.of, place).negated(self.g);
+        let top = call(self.g, Prim::Exp, exponent.value);
+        let mass = self.grown(mass, exponent.rest);
         let value = mul(self.g, top, mass);
         let value = self.g.div(value, rate);
         let sign = call(self.g, Prim::Sign, self.path.half);
         let wide = mul(self.g, sign, value);
         // a line along which the exponent does not change, and the empty interval
         let length = self.length_of_path();
-        let middle = self.g.neg(q.c);
-        let middle = call(self.g, Prim::Exp, middle);
-        let flat = mul(self.g, length, middle);
+        let middle = self.pair_in_middle(q.of).negated(self.g);
+        let level = call(self.g, Prim::Exp, middle.value);
+        let flat = self.grown(length, middle.rest);
+        let flat = mul(self.g, flat, level);
         let change = self.change_of_exponent(q, half);
         let least = self.g.real(LEAST_WIDTH);
         if_less(self.g, change, least, flat, wide)
@@ -147,12 +146,8 @@ impl Integrator<'_> {
     ) -> Id {
         let half = call(self.g, Prim::Abs, self.path.half);
         let (_, rate, places) = self.in_widths(q, LEAST_WIDTH_BESIDE);
+        let derivatives = self.derivatives(polynomials, degree);
         let one = self.g.real(1.0);
-        let mut derivatives = vec![polynomials.iter().fold(one, |p, &r| mul(self.g, p, r))];
-        for _ in 0..degree {
-            let last = derivatives[derivatives.len() - 1];
-            derivatives.push(self.slope(last));
-        }
         let (zero, less) = (self.g.real(0.0), self.g.real(-1.0));
         // on which side of the centre the ends are
         let sides = places.map(|u| if_less(self.g, u, zero, less, one));
@@ -163,8 +158,9 @@ impl Integrator<'_> {
             let values = body.at(self.g, &end);
             let x = call(self.g, Prim::Abs, places[which]);
             let tail = self.tail_of(&values, x, rate, sides[which]);
-            let fall = self.g.neg(q.ends[which]);
-            let size = call(self.g, Prim::Exp, fall);
+            let fall = self.pair_at(q.of, self.path.ends[which]).negated(self.g);
+            let size = call(self.g, Prim::Exp, fall.value);
+            let tail = self.grown(tail, fall.rest);
             let part = mul(self.g, size, tail);
             mul(self.g, sides[which], part)
         });
@@ -179,7 +175,7 @@ impl Integrator<'_> {
         let sum = self.g.add(whole, beyond);
         let far = self.g.div(sum, rate);
         let limit = f64::from(degree) + 2.0;
-        let near = self.gauss(
+        let near = self.local_gauss(
             integrand,
             nodes_for_exponential(limit, degree as usize, NEAR) + 2,
         );
@@ -200,9 +196,9 @@ impl Integrator<'_> {
             sum = add(self.g, sum, part);
             weight /= 2.0 * f64::from(n) + 4.0;
         }
-        let depth = self.g.div(q.discriminant, q.a);
-        let fall = self.g.neg(depth);
-        let size = call(self.g, Prim::Exp, fall);
+        let fall = self.pair_at(q.of, q.foot).negated(self.g);
+        let size = call(self.g, Prim::Exp, fall.value);
+        let sum = self.grown(sum, fall.rest);
         mul(self.g, size, sum)
     }
 

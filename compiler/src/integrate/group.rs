@@ -60,7 +60,7 @@ impl Integrator<'_> {
         if !self.moves(product) {
             return far;
         }
-        let near = self.gauss(product, nodes);
+        let near = self.local_gauss(product, nodes);
         let short = conditions
             .into_iter()
             .reduce(|a, b| self.g.apply(Prim::And, &[a, b]));

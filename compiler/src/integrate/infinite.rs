@@ -5,6 +5,7 @@
 //! pieces to the last place where one changes, and on from there.
 
 use super::arithmetic::{add, if_less, is_zero, mul};
+use super::path::without_rests;
 use super::rule::Rule;
 use super::term::{Factor, Term};
 use super::{Integral, Integrator, Otherwise, Path, Problem, Reason};
@@ -17,6 +18,7 @@ use crate::ir::{Graph, Id, Loop, Op, Prim, State};
 /// # Errors
 /// The integral diverges, a part has no closed form, or a bound is exceeded.
 pub fn improper(g: &mut Graph, root: Id, leaf: Id, [a, b]: [Id; 2]) -> Result<Integral, Problem> {
+    let root = without_rests(g, root);
     let (lower, upper) = (infinity(g, a), infinity(g, b));
     let zero = g.real(0.0);
     // each half-line by where it begins, the side to which it goes, and its sign
@@ -76,7 +78,10 @@ impl Integrator<'_> {
             self.path = near;
             sum = match self.ridge(root) {
                 Some(value) => value,
-                None => self.piecewise(root, &cuts, Self::smooth)?,
+                None => {
+                    let cuts = self.cuts_with_lows(root)?;
+                    self.piecewise(root, &cuts, Self::smooth)?
+                }
             };
         }
         // beyond the last cut every condition is what it is one further

@@ -20,12 +20,16 @@ mod equiangular;
 mod expand;
 mod explain;
 mod exponential;
+mod faddeeva;
 mod field;
 mod gaussian;
 mod gaussian_waves;
 mod group;
+mod growing;
 mod infinite;
 mod legendre;
+mod local;
+mod pair;
 mod path;
 mod problem;
 mod products;
@@ -66,7 +70,7 @@ use arithmetic::{add, mul, scale};
 use class::Classes;
 use exponential::Parts;
 use group::Groups;
-use path::Body;
+use path::{Body, without_rests};
 use term::{Factor, Term};
 
 use crate::derive::forward;
@@ -120,6 +124,7 @@ pub fn integrate(
     path: &Path,
     otherwise: Otherwise,
 ) -> Result<Integral, Problem> {
+    let root = without_rests(g, root);
     let mut integrator = Integrator::new(g, path.clone(), otherwise);
     let value = integrator.whole(root)?;
     Ok(Integral {
@@ -136,6 +141,7 @@ pub fn integrate(
 /// # Errors
 /// A bound is exceeded.
 pub fn quadrature(g: &mut Graph, root: Id, path: &Path) -> Result<Id, Problem> {
+    let root = without_rests(g, root);
     Integrator::new(g, path.clone(), Otherwise::Quadrature).by_quadrature_alone(root)
 }
 
@@ -190,11 +196,11 @@ impl<'g> Integrator<'g> {
     fn in_pieces(&mut self, root: Id) -> Result<Id, Problem> {
         match self.cuts(root) {
             Ok(cuts) if cuts.is_empty() => self.smooth(root),
-            Ok(cuts) => {
+            Ok(_) => {
                 self.pieces = true;
                 match self.ridge(root) {
                     Some(value) => Ok(value),
-                    None => self.piecewise(root, &cuts, Self::smooth),
+                    None => self.in_rebased_pieces(root),
                 }
             }
             Err(problem) if self.otherwise == Otherwise::Quadrature => {
@@ -204,6 +210,17 @@ impl<'g> Integrator<'g> {
             }
             Err(problem) => Err(problem),
         }
+    }
+
+    /// The pieces with t counted from the middle where the interval is far away: places where conditions change would be
+    /// rounded to their distance from t = 0.
+    fn in_rebased_pieces(&mut self, root: Id) -> Result<Id, Problem> {
+        let whole = self.path.clone();
+        self.path = whole.rebased(self.g);
+        let cuts = self.cuts_with_lows(root);
+        let value = cuts.and_then(|cuts| self.piecewise(root, &cuts, Self::smooth));
+        self.path = whole;
+        value
     }
 
     /// The integral of an integrand whose conditions are constant along the path.
@@ -271,7 +288,7 @@ impl<'g> Integrator<'g> {
             Rule::Polynomial
         };
         self.note(root, &[], rule);
-        self.gauss(root, degree as usize / 2 + 1)
+        self.local_gauss(root, degree as usize / 2 + 1)
     }
 
     /// Remembers how a product was integrated, conditions as they were written.
@@ -315,7 +332,7 @@ impl<'g> Integrator<'g> {
                 );
             };
             return Ok((
-                self.gauss(moving, degree as usize / 2 + 1),
+                self.local_gauss(moving, degree as usize / 2 + 1),
                 Rule::Polynomial,
             ));
         }

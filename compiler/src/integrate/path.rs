@@ -3,7 +3,8 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
-use super::arithmetic::{if_less, is_zero, mul_add, scale, sub};
+use super::arithmetic::{add, if_less, is_zero, mul, mul_add, scale, sub};
+use super::pair::{Pair, mul_add_rest, sum_rest};
 use crate::ir::{Binder, Graph, Id, Op, Prim};
 
 /// A coordinate that changes along the line: origin + t slope.
@@ -13,6 +14,8 @@ pub struct Coordinate {
     pub leaf: Id,
     /// Its value at t = 0.
     pub origin: Id,
+    /// What the value at t = 0 is beyond [`Self::origin`].
+    pub low: Id,
     /// Its value in the middle of the interval.
     pub mid: Id,
     /// Its rate of change.
@@ -29,6 +32,8 @@ pub struct Path {
     pub ends: [Id; 2],
     /// t in the middle.
     pub middle: Id,
+    /// What it is beyond [`Self::middle`].
+    pub middle_low: Id,
     /// Half the length of the interval, with its sign.
     pub half: Id,
 }
@@ -59,34 +64,72 @@ impl Path {
 
     /// Each a leaf, its value at t = 0, and its slope.
     pub(super) fn of_lines(g: &mut Graph, lines: &[(Id, Id, Id)], ends: [Id; 2]) -> Self {
-        // from half ends, so that neither overflows
-        let halves = ends.map(|end| scale(g, 0.5, end));
-        let (middle, half) = (
-            super::arithmetic::add(g, halves[0], halves[1]),
-            sub(g, halves[1], halves[0]),
-        );
-        let mut coordinate = |&(leaf, origin, slope): &(Id, Id, Id)| Coordinate {
+        let low = g.real(0.0);
+        let line = |&(leaf, origin, slope): &(Id, Id, Id)| Coordinate {
             leaf,
             origin,
-            mid: mid(g, (origin, slope), ends, middle, half),
+            low,
+            mid: origin,
             slope,
         };
+        Self::of_coordinates(g, lines.iter().map(line).collect(), ends, [low; 2])
+    }
+
+    /// The interval between two ends of a line, with what they are beyond their rounded t; values in the middle are still
+    /// to be found.
+    fn of_coordinates(
+        g: &mut Graph,
+        mut coordinates: Vec<Coordinate>,
+        ends: [Id; 2],
+        lows: [Id; 2],
+    ) -> Self {
+        // from half ends, so that neither overflows
+        let halves = ends.map(|end| scale(g, 0.5, end));
+        let (middle, half) = (add(g, halves[0], halves[1]), sub(g, halves[1], halves[0]));
+        let lows = lows.map(|low| scale(g, 0.5, low));
+        let (beside, longer) = (add(g, lows[0], lows[1]), sub(g, lows[1], lows[0]));
+        let half = add(g, half, longer);
+        let rest = sum_rest(g, halves[0], halves[1], middle);
+        for c in &mut coordinates {
+            c.mid = mid(g, c, ends, middle, half);
+        }
         Self {
-            coordinates: lines.iter().map(&mut coordinate).collect(),
+            coordinates,
             ends,
             middle,
+            middle_low: add(g, rest, beside),
             half,
         }
     }
 
     /// The part of the line between two other ends.
     pub fn between(&self, g: &mut Graph, ends: [Id; 2]) -> Self {
-        let lines: Vec<(Id, Id, Id)> = self
-            .coordinates
-            .iter()
-            .map(|c| (c.leaf, c.origin, c.slope))
-            .collect();
-        Self::of_lines(g, &lines, ends)
+        let low = g.real(0.0);
+        self.between_cuts(g, ends, [low; 2])
+    }
+
+    /// The same with what the ends are beyond their rounded t.
+    pub fn between_cuts(&self, g: &mut Graph, ends: [Id; 2], lows: [Id; 2]) -> Self {
+        Self::of_coordinates(g, self.coordinates.clone(), ends, lows)
+    }
+
+    /// The same line and interval with t counted from the middle of the interval, where that is further from t = 0 than
+    /// the interval is long: there what is in the interval would be rounded to its distance from t = 0. Nothing is
+    /// rounded by that, as the ends are between half and twice the middle and what values at the new t = 0 are rounded
+    /// by is kept.
+    ///
+    /// Sterbenz, Floating-Point Computation, 1974, theorem 4.3.1.
+    pub fn rebased(&self, g: &mut Graph) -> Self {
+        let [away, reach] = [self.middle, self.half].map(|t| g.apply(Prim::Abs, &[t]));
+        let (length, zero) = (scale(g, 2.0, reach), g.real(0.0));
+        let start = if_less(g, length, away, self.middle, zero);
+        let ends = self.ends.map(|end| sub(g, end, start));
+        let mut coordinates = self.coordinates.clone();
+        for c in &mut coordinates {
+            let there = c.at(g, start);
+            (c.origin, c.low) = (there.value, there.rest);
+        }
+        Self::of_coordinates(g, coordinates, ends, [zero; 2])
     }
 
     /// The same line, seen from t = 0.
@@ -96,6 +139,7 @@ impl Path {
             c.mid = c.origin;
         }
         out.middle = g.real(0.0);
+        out.middle_low = out.middle;
         out
     }
 
@@ -103,9 +147,10 @@ impl Path {
     pub fn from_place(&self, g: &mut Graph, t: Id) -> Self {
         let mut out = self.clone();
         for c in &mut out.coordinates {
-            c.mid = line(g, c.origin, t, c.slope);
+            c.mid = c.at(g, t).value;
         }
         out.middle = t;
+        out.middle_low = g.real(0.0);
         out
     }
 
@@ -115,10 +160,27 @@ impl Path {
         self.coordinates.iter().map(at).collect()
     }
 
+    /// The coordinates at t, which is not rounded, with what they are rounded by.
+    pub fn pairs(&self, g: &mut Graph, t: Id) -> Vec<(Id, Pair)> {
+        let at = |c: &Coordinate| (c.leaf, c.at(g, t));
+        self.coordinates.iter().map(at).collect()
+    }
+
+    /// The coordinates in the middle, with what they and its t are rounded by.
+    pub fn pairs_in_middle(&self, g: &mut Graph) -> Vec<(Id, Pair)> {
+        let at = |c: &Coordinate| {
+            let mut pair = c.at(g, self.middle);
+            let beside = mul(g, self.middle_low, c.slope);
+            pair.rest = add(g, pair.rest, beside);
+            (c.leaf, pair)
+        };
+        self.coordinates.iter().map(at).collect()
+    }
+
     /// The coordinates at an end, from its t and not by way of the middle.
     pub fn end(&self, g: &mut Graph, which: usize) -> Vec<(Id, Id)> {
         let t = self.ends[which];
-        let at = |c: &Coordinate| (c.leaf, line(g, c.origin, t, c.slope));
+        let at = |c: &Coordinate| (c.leaf, c.at(g, t).value);
         self.coordinates.iter().map(at).collect()
     }
 
@@ -133,6 +195,19 @@ impl Path {
     }
 }
 
+impl Coordinate {
+    /// The value at t, and what it is rounded by.
+    fn at(&self, g: &mut Graph, t: Id) -> Pair {
+        let near = line(g, self.origin, t, self.slope);
+        let value = add(g, near, self.low);
+        let rest = mul_add_rest(g, [t, self.slope, self.origin], value);
+        Pair {
+            value,
+            rest: add(g, rest, self.low),
+        }
+    }
+}
+
 /// base + t slope, rounded once: the ray may begin far away from where it is looked at.
 fn line(g: &mut Graph, base: Id, t: Id, slope: Id) -> Id {
     mul_add(g, t, slope, base)
@@ -140,12 +215,14 @@ fn line(g: &mut Graph, base: Id, t: Id, slope: Id) -> Id {
 
 /// A coordinate in the middle of the interval. Where that is further from t = 0 than the ends from each other, the mean of
 /// both ends: each is rounded by itself, and the t of the middle would be rounded to its distance from 0.
-fn mid(g: &mut Graph, (origin, slope): (Id, Id), ends: [Id; 2], middle: Id, half: Id) -> Id {
-    let there = line(g, origin, middle, slope);
-    if is_zero(g, slope) || is_zero(g, origin) || is_zero(g, half) {
+fn mid(g: &mut Graph, c: &Coordinate, ends: [Id; 2], middle: Id, half: Id) -> Id {
+    let there = c.at(g, middle).value;
+    // t has been counted from the middle already
+    let is_near = !is_zero(g, c.low);
+    if is_near || is_zero(g, c.slope) || is_zero(g, c.origin) || is_zero(g, half) {
         return there;
     }
-    let [low, high] = ends.map(|t| line(g, origin, t, slope));
+    let [low, high] = ends.map(|t| line(g, c.origin, t, c.slope));
     let low = scale(g, 0.5, low);
     let between = {
         let half = g.real(0.5);
@@ -249,6 +326,41 @@ fn copy(
             }
         }
     }
+}
+
+/// An integrand without what rules have written to lessen roundings: `fma` as product and sum, and no rests. That is what
+/// an integral within it is to the rules.
+pub fn without_rests(g: &mut Graph, root: Id) -> Id {
+    let order = cone(g, &[root]);
+    let is_rest = |g: &Graph, id: Id| {
+        matches!(
+            g.node(id).op,
+            Op::Apply(Prim::MulAdd | Prim::SumRest | Prim::MulAddRest)
+        )
+    };
+    if !order.iter().any(|&id| is_rest(g, id)) {
+        return root;
+    }
+    let mut map: FxHashMap<Id, Id> = FxHashMap::default();
+    let mut binders: FxHashMap<Binder, Binder> = FxHashMap::default();
+    for id in order {
+        let args: SmallVec<[Id; 4]> = g
+            .node(id)
+            .args
+            .iter()
+            .map(|a| map.get(a).copied().unwrap_or(*a))
+            .collect();
+        let new = match (g.node(id).op, args.as_slice()) {
+            (Op::Apply(Prim::MulAdd), &[a, b, c]) => {
+                let product = mul(g, a, b);
+                add(g, product, c)
+            }
+            (Op::Apply(Prim::SumRest | Prim::MulAddRest), _) => g.real(0.0),
+            _ => copy(g, id, &map, &mut binders),
+        };
+        map.insert(id, new);
+    }
+    map.get(&root).copied().unwrap_or(root)
 }
 
 /// What the roots depend on, in order.

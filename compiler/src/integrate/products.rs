@@ -55,7 +55,7 @@ impl Integrator<'_> {
     /// product.
     fn affine_by_quadratic(&mut self, integrand: Id, affine: Id, base: Id) -> Id {
         let (x, bowl) = (self.affine(affine), self.bowl(base));
-        let near = self.gauss(integrand, NEAR_NODES);
+        let near = self.local_gauss(integrand, NEAR_NODES);
         let ratio = self.g.div(x.ends[1], x.ends[0]);
         let fall = self.g.div(bowl.ends[0], bowl.ends[1]);
         let turned = square(self.g, ratio);
@@ -114,7 +114,7 @@ impl Integrator<'_> {
     /// are near one another, nodes over their pencil; on short intervals nodes of the product.
     fn two_quadratics(&mut self, integrand: Id, p: Id, q: Id) -> Id {
         let bowls = [p, q].map(|base| self.bowl(base));
-        let near = self.gauss(integrand, NEAR_NODES);
+        let near = self.local_gauss(integrand, NEAR_NODES);
         let far = self.partial_fractions([p, q], &bowls);
         let limits = bowls.map(|bowl| {
             let reach = call(self.g, Prim::Abs, bowl.reach);

@@ -14,6 +14,8 @@ use crate::table::Number;
 /// How far both sides of an identity may be from one another, as a part of the greatest |f| and the mean of |f|.
 pub const PROOF_TOLERANCE: f64 = 1e-7;
 /// How many places the mean of |f| is taken of.
+/// In how many pieces an interval is cut.
+const PIECES: u8 = 16;
 const PLACES: u32 = 24;
 
 /// What came of it.
@@ -172,7 +174,7 @@ fn sizes(sides: &mut Sides, ray: &[f64; 8]) -> Option<(f64, f64)> {
 }
 
 /// Each identity, with its error.
-fn errors(sides: &mut Sides, ray: &[f64; 8], greatest: f64, mean: f64) -> [(&'static str, f64); 4] {
+fn errors(sides: &mut Sides, ray: &[f64; 8], greatest: f64, mean: f64) -> [(&'static str, f64); 5] {
     let (a, b) = (ray[6], ray[7]);
     let length = (b - a).abs();
     let with = |a: f64, b: f64| {
@@ -185,6 +187,10 @@ fn errors(sides: &mut Sides, ray: &[f64; 8], greatest: f64, mean: f64) -> [(&'st
     let ends = [a, b].map(|t| sides.field(ray, t));
     let between = 0.375_f64.mul_add(b - a, a);
     let parts = sides.integral(&with(a, between))[0] + sides.integral(&with(between, b))[0];
+    // a mistake in what counts only between ends that are far apart is none of a derivative, nor of two long parts
+    let place = |k: u8| (b - a).mul_add(f64::from(k) / f64::from(PIECES), a);
+    let pieces = (0..PIECES).map(|k| sides.integral(&with(place(k), place(k + 1)))[0]);
+    let pieces: f64 = pieces.sum();
     let empty = sides.integral(&with(b, b))[0];
     let share = (mean * length).max(1e-30);
     [
@@ -192,6 +198,10 @@ fn errors(sides: &mut Sides, ray: &[f64; 8], greatest: f64, mean: f64) -> [(&'st
         ("dI/da = -f(o + a d)", (by_a + ends[0]).abs() / size),
         ("I(a, a) = 0", empty.abs() / share),
         ("I(a, b) + I(b, c) = I(a, c)", (parts - whole).abs() / share),
+        (
+            "the pieces together are I(a, b)",
+            (pieces - whole).abs() / share,
+        ),
     ]
 }
 

@@ -2,11 +2,14 @@
 
 use super::Integrator;
 use super::arithmetic::{add, call, div, mul, scale, square, sub, total};
+use super::pair::Pair;
 use crate::ir::{Id, Op, Prim};
 
 /// mid + s slope, s from the middle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Affine {
+    /// The expression.
+    pub of: Id,
     /// Value in the middle.
     pub mid: Id,
     /// Values at both ends.
@@ -18,6 +21,8 @@ pub struct Affine {
 /// a s² + 2 b s + c.
 #[derive(Clone, Copy, Debug)]
 pub struct Quadratic {
+    /// The expression.
+    pub of: Id,
     /// Coefficient of s².
     pub a: Id,
     /// Half the coefficient of s.
@@ -57,34 +62,40 @@ impl Integrator<'_> {
         let slope = self.slope(id);
         let slope = self.at_middle(slope);
         let ends = self.at_ends(id);
-        Affine { mid, slope, ends }
+        Affine {
+            of: id,
+            mid,
+            slope,
+            ends,
+        }
     }
 
-    /// The coefficients of an expression of degree 2 or less.
+    /// The coefficients of an expression of degree 2 or less. What may cancel, because it is no sum of squares, is
+    /// taken with the rests of its roundings.
     pub(super) fn quadratic(&mut self, id: Id) -> Quadratic {
-        let c = self.at_middle(id);
+        let may_cancel = self.may_cancel(id);
         let slope = self.slope(id);
         let curvature = self.slope(slope);
         let (slope, curvature) = (self.at_middle(slope), self.at_middle(curvature));
         let (b, a) = (scale(self.g, 0.5, slope), scale(self.g, 0.5, curvature));
+        let c = if may_cancel {
+            self.pair_in_middle(id).total(self.g)
+        } else {
+            self.at_middle(id)
+        };
         let whole = self.path.clone();
         self.path = whole.from_origin(self.g);
         let rate = self.slope(id);
         let at_origin = self.at_middle(rate);
-        let mut found = self.squares(id);
-        if let Some(place) = found.as_ref().and_then(|s| self.least_place(s)) {
-            self.path = whole.from_place(self.g, place);
-            found = self.squares(id);
-        }
-        let found = found.and_then(|s| self.discriminant(&s));
-        self.path = whole;
+        self.path = whole.clone();
         let foot = scale(self.g, -0.5, at_origin);
         let foot = self.g.div(foot, a);
-        let discriminant = found.unwrap_or_else(|| {
-            let (ac, bb) = (mul(self.g, a, c), square(self.g, b));
-            sub(self.g, ac, bb)
-        });
-        let chord = match self.chord_of_squares(id) {
+        let discriminant = if may_cancel {
+            self.discriminant_at_foot(id, a, at_origin)
+        } else {
+            self.discriminant_of_squares(id, a, b, c)
+        };
+        let chord = match self.chord_of_squares(id, may_cancel) {
             Some(chord) => chord,
             None => {
                 let reach = square(self.g, self.path.half);
@@ -92,21 +103,60 @@ impl Integrator<'_> {
                 sub(self.g, c, reach)
             }
         };
+        let ends = if may_cancel {
+            self.pair_at_ends(id).map(|end| end.total(self.g))
+        } else {
+            self.at_ends(id)
+        };
         Quadratic {
+            of: id,
             a,
             b,
             c,
             discriminant,
             chord,
-            ends: self.at_ends(id),
+            ends,
             slopes: self.at_ends(rate).map(|s| scale(self.g, 0.5, s)),
             foot,
         }
     }
 
+    /// a c - b² as a q - (q'/2)² at about the place where the slope is 0, where nothing is subtracted from the first but
+    /// what the place is rounded by.
+    fn discriminant_at_foot(&mut self, id: Id, a: Id, rate_at_origin: Id) -> Id {
+        let half = scale(self.g, 0.5, rate_at_origin);
+        let place = self.g.apply(Prim::Foot, &[a, half]);
+        let value = self.pair_at(id, place).total(self.g);
+        let slope = self.slope(id);
+        let slope = self.at_place(&[slope], place)[0];
+        let slope = scale(self.g, 0.5, slope);
+        let (product, rest) = (mul(self.g, a, value), square(self.g, slope));
+        sub(self.g, product, rest)
+    }
+
+    /// a c - b² of a sum of squares from what is crossed, else as it is.
+    fn discriminant_of_squares(&mut self, id: Id, a: Id, b: Id, c: Id) -> Id {
+        let whole = self.path.clone();
+        self.path = whole.from_origin(self.g);
+        let mut found = self.squares(id);
+        if let Some(place) = found.as_ref().and_then(|s| self.least_place(s)) {
+            self.path = whole.from_place(self.g, place);
+            found = self.squares(id);
+        }
+        let found = found.and_then(|s| self.discriminant(&s));
+        self.path = whole;
+        found.unwrap_or_else(|| {
+            let (ac, bb) = (mul(self.g, a, c), square(self.g, b));
+            sub(self.g, ac, bb)
+        })
+    }
+
     /// c - a h² = Σ w u₀ u₁ + Σ ℓ(m) + k.
-    fn chord_of_squares(&mut self, id: Id) -> Option<Id> {
+    fn chord_of_squares(&mut self, id: Id, may_cancel: bool) -> Option<Id> {
         let found = self.squares(id)?;
+        if may_cancel {
+            return Some(self.chord_with_rests(&found));
+        }
         let mut sum = self.g.real(0.0);
         for (w, x) in &found.squares {
             let product = mul(self.g, x.ends[0], x.ends[1]);
@@ -122,6 +172,30 @@ impl Integrator<'_> {
             sum = add(self.g, sum, part);
         }
         Some(sum)
+    }
+
+    fn chord_with_rests(&mut self, found: &Squares) -> Id {
+        let zero = self.g.real(0.0);
+        let mut sum = Pair::exact(self.g, zero);
+        let mut add_weighted = |this: &mut Self, weight: Id, pair: Pair| {
+            let weight = Pair::exact(this.g, weight);
+            let part = pair.times(this.g, weight);
+            sum = sum.plus(this.g, part);
+        };
+        for (w, x) in &found.squares {
+            let [first, last] = self.pair_at_ends(x.of);
+            let product = first.times(self.g, last);
+            add_weighted(self, *w, product);
+        }
+        for (w, x) in &found.linear {
+            let middle = self.pair_in_middle(x.of);
+            add_weighted(self, *w, middle);
+        }
+        for &(w, c) in &found.constant {
+            let constant = Pair::exact(self.g, c);
+            add_weighted(self, w, constant);
+        }
+        sum.total(self.g)
     }
 
     /// Whether an expression is a sum of squares with positive weights and constants that are not negative.

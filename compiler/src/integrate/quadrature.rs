@@ -54,7 +54,7 @@ struct Walk {
 impl Integrator<'_> {
     /// Quadrature alone, on each piece between the places where conditions change, as far as these are known.
     pub(super) fn by_quadrature_alone(&mut self, root: Id) -> Result<Id, Problem> {
-        match self.cuts(root) {
+        match self.cuts_with_lows(root) {
             Ok(cuts) if !cuts.is_empty() => {
                 self.piecewise(root, &cuts, |this, piece| Ok(this.numerically(piece)))
             }

@@ -28,6 +28,7 @@ pub enum Rule {
     Gaussian,
     PolynomialByGaussian,
     GaussianByWave,
+    GrowingGaussian,
     ReciprocalProduct,
 }
 
@@ -48,7 +49,7 @@ pub struct Record {
 }
 
 /// Every rule, in the order of [`Rule`].
-pub static RULES: [Record; 25] = [
+pub static RULES: [Record; 26] = [
     Record {
         rule: Rule::Constant,
         name: "constant",
@@ -224,10 +225,19 @@ pub static RULES: [Record; 25] = [
     Record {
         rule: Rule::GaussianByWave,
         name: "Gaussian by wave",
-        equation: "∫ₓ^∞ e^(-u² + iκu) du = (√π/2) e^(-x² + iκx) w(κ/2 + ix) from both ends, and √π e^(-κ²/4) around \
-                   the centre; nodes of the product where exponent and phases change by less than 4",
-        bound: "always; w right to 3e-13",
-        source: "NIST DLMF 7.2(i), 7.7; Weideman, SIAM Journal on Numerical Analysis 31, 1994",
+        equation: "∫ₓ^∞ p e^(-u² + iκu) du = (√π/2) e^(-x² + iκx) Σ p⁽ⁿ⁾ e^(z²) iⁿerfc z, z = x - iκ/2, from both ends, \
+                   the first of them w(iz), and √π e^(-κ²/4) Σ p⁽ᵐ⁾ iᵐ hₘ/m! around the centre; nodes of the product \
+                   where exponent and phases change by less than 4 or degree + 2",
+        bound: "degree up to 7; w and its derivatives right to 3e-13",
+        source: "NIST DLMF 7.2(i), 7.7, 7.18; Weideman, SIAM Journal on Numerical Analysis 31, 1994",
+    },
+    Record {
+        rule: Rule::GrowingGaussian,
+        name: "growing Gaussian",
+        equation: "∫ p e^(u²) du = e^(u²) Σ p⁽ⁿ⁾ D⁽ⁿ⁾/(2ⁿ n!) at both ends with Dawson's D; nodes where the exponent changes \
+                   by less than degree + 4",
+        bound: "degree up to 7; D and its derivatives right to 3e-13",
+        source: "NIST DLMF 7.2.5, 7.5; Weideman, SIAM Journal on Numerical Analysis 31, 1994",
     },
     Record {
         rule: Rule::ReciprocalProduct,

@@ -140,6 +140,10 @@ pub enum Prim {
     SquarePlus,
     /// a b + c, rounded once where the adapter's `fma` is.
     MulAdd,
+    /// a + b - s: by how much s, which is about their sum, is rounded.
+    SumRest,
+    /// a b + c - s: by how much s, which is about that, is rounded.
+    MulAddRest,
     /// -b/a, about where a s² + 2 b s + c is least; locally constant.
     Foot,
     Log1pExp,

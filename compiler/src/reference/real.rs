@@ -141,6 +141,21 @@ pub fn square_plus(x: f64, p: f64) -> f64 {
     x.mul_add(x, p)
 }
 
+/// a + b - s exactly, where s is near the sum, 0 where that is no number (Knuth, TAOCP 2, 4.2.2).
+pub fn sum_rest(a: f64, b: f64, s: f64) -> f64 {
+    let (sum, rest) = super::complex::two_sum(a, b);
+    let rest = (sum - s) + rest;
+    if rest.is_finite() { rest } else { 0.0 }
+}
+
+/// a b + c - s exactly, where s is near that, 0 where that is no number.
+pub fn mul_add_rest([a, b, c]: [f64; 3], s: f64) -> f64 {
+    let (product, low) = super::complex::two_product(a, b);
+    let (sum, rest) = super::complex::two_sum(product, c);
+    let rest = (sum - s) + (rest + low);
+    if rest.is_finite() { rest } else { 0.0 }
+}
+
 /// √x, NaN below 0.
 pub fn sqrt(x: f64) -> f64 {
     x.sqrt()

@@ -298,7 +298,7 @@ fn masses() -> [Row; 4] {
 }
 
 /// Places on a line.
-fn places() -> [Row; 2] {
+fn places() -> [Row; 4] {
     [
         Row {
             prim: Prim::MulAdd,
@@ -317,6 +317,35 @@ fn places() -> [Row; 2] {
             gpu: Gpu::Builtin(MathFunction::Fma),
             gpu_complex: "",
             cost: weight(2),
+        },
+        Row {
+            prim: Prim::SumRest,
+            mnemonic: "sum_rest",
+            names: &[],
+            usage: "",
+            doc: "a + b - s exactly, where s is the rounded sum of a and b; 0 where that is no number: locally constant",
+            typing: Typing::Real(3),
+            real: Some(|a| real::sum_rest(a[0], a[1], a[2])),
+            complex: None,
+            derivative: Derivative::Zero,
+            gpu: Gpu::Library("real_sum_rest", None),
+            gpu_complex: "",
+            cost: weight(8),
+        },
+        Row {
+            prim: Prim::MulAddRest,
+            mnemonic: "fma_rest",
+            names: &[],
+            usage: "",
+            doc: "a b + c - s exactly, where s is that rounded; 0 where that is no number: locally constant. The product is not \
+                  rounded where the adapter's fma is one operation",
+            typing: Typing::Real(4),
+            real: Some(|a| real::mul_add_rest([a[0], a[1], a[2]], a[3])),
+            complex: None,
+            derivative: Derivative::Zero,
+            gpu: Gpu::Library("real_mul_add_rest", None),
+            gpu_complex: "",
+            cost: weight(11),
         },
         Row {
             prim: Prim::Foot,

@@ -78,7 +78,7 @@ fn smoothstep(y: f64) -> f64 {
 }
 
 /// The classes.
-pub const CLASSES: [Class; 41] = [
+pub const CLASSES: [Class; 43] = [
     beside(
         class("polynomial, degree 4", "(x^2 + y^2 + z^2 - 1)^2", |p| {
             (q(p) - 1.0).powi(2)
@@ -234,4 +234,13 @@ pub const CLASSES: [Class; 41] = [
         "if x^2 + y^2 + z^2 < 1 then 1 + y else 0",
         |p| if q(p) < 1.0 { 1.0 + p[1] } else { 0.0 },
     ),
+    waves(
+        "polynomial by Gaussian by wave",
+        "x^2 exp(-(x^2 + y^2 + z^2)) cos(5 y)",
+        |p| p[0] * p[0] * (-q(p)).exp() * (5.0 * p[1]).cos(),
+        5.0,
+    ),
+    class("growing Gaussian", "x^3 exp(x^2)", |p| {
+        p[0].powi(3) * (p[0] * p[0]).exp()
+    }),
 ];

@@ -400,6 +400,11 @@ fn products() {
 }
 
 #[test]
+fn gaussians() {
+    check("gaussians");
+}
+
+#[test]
 fn fractions() {
     check("fractions");
 }
@@ -453,6 +458,7 @@ fn extreme_rays_give_numbers() {
         "bells",
         "scenes",
         "products",
+        "gaussians",
         "random",
     ] {
         for density in densities(class) {

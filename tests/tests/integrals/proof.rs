@@ -5,7 +5,7 @@ use pullback_compiler::ir::{Graph, Id, Op, Prim};
 
 use super::{VALUES, densities, formula};
 
-pub(super) const CLASSES: [&str; 12] = [
+pub(super) const CLASSES: [&str; 13] = [
     "polynomials",
     "waves",
     "exponentials",
@@ -16,6 +16,7 @@ pub(super) const CLASSES: [&str; 12] = [
     "bells",
     "scenes",
     "products",
+    "gaussians",
     "fractions",
     "random",
 ];

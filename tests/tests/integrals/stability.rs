@@ -13,19 +13,23 @@ use pullback_tests::stability::{BOUND, Found, measure, tables};
 use super::{DOUBLE, densities};
 
 /// Rays of each class.
-const COUNT: usize = 20;
+const COUNT: usize = 40;
 
-/// The classes of which every ray is within the bound without an allowance for roundings.
-const WITHOUT_ALLOWANCE: [&str; 9] = [
-    "1/q", "1/q²", "1/q³", "q^(-5/2)", "√q", "|p|", "1/|p|", "q^(-3/2)", "|p|³",
+/// The classes of which more than one ray in a thousand is within the bound only with the roundings of the ray; all others
+/// have to be without.
+const WITH_ALLOWANCE: [&str; 4] = [
+    "polynomial, degree 20",
+    "products of waves",
+    "polynomial by √q",
+    "polynomial by log q",
 ];
 
 fn single() -> Machine {
     Machine::Processor(Arithmetic::Ieee32, Precision::Accurate)
 }
 
-/// Origins within 10 units: what is beyond the bound is explained by eight roundings of the numbers of the ray, of powers
-/// of |p|² + k nothing is beyond it, and a number is a number.
+/// Origins within 10 units: nothing is beyond the bound, of a few classes nothing but what eight roundings of the numbers of
+/// the ray explain, and a number is a number.
 #[test]
 fn rays_of_every_kind() {
     let rays = rays(COUNT, 5);
@@ -33,10 +37,10 @@ fn rays_of_every_kind() {
     let mut all: Vec<Found> = Vec::new();
     for class in &CLASSES {
         let found = measure(class, &rays, &single()).unwrap();
-        let roundings = if WITHOUT_ALLOWANCE.contains(&class.name) {
-            0.0
-        } else {
+        let roundings = if WITH_ALLOWANCE.contains(&class.name) {
             8.0
+        } else {
+            0.0
         };
         let is_bad = found
             .at(Distance::Near)

@@ -1,0 +1,197 @@
+//! Nodes of an integrand on an interval on which it changes little, by what is in it of degree 1 and 2.
+//!
+//! Beside a zero of such a polynomial, or where it is the exponent or the phase of something, its rounding at each node
+//! would count more than that of all else. So each is known once in the middle of the interval, with its rest, and the
+//! nodes take what it changes by from there: e^(q + δ) = e^q e^δ, log(q + δ) = log q + log(1 + δ/q), sin(φ + δ) =
+//! sin φ cos δ + cos φ sin δ.
+
+use rustc_hash::FxHashMap;
+
+use super::Integrator;
+use super::arithmetic::{add, call, div, mul, mul_add, scale};
+use super::legendre::{Node, gauss_legendre};
+use super::pair::Pair;
+use super::path::Body;
+use crate::ir::{Id, Op, Prim};
+
+/// What an integrand has of degree 1 or 2, without what is part of something larger that has.
+enum Kind {
+    /// The polynomial itself.
+    Polynomial,
+    /// e to it.
+    Exponential,
+    /// Its logarithm.
+    Logarithm,
+    /// Its sine or cosine.
+    Wave(Prim),
+}
+
+/// One of these, seen from the middle of the path.
+struct Local {
+    /// The node of the integrand that it is.
+    id: Id,
+    kind: Kind,
+    middle: Pair,
+    /// The value, e to it, its logarithm, or its sine and cosine in the middle.
+    values: [Id; 2],
+    /// Half the curvature, and the slope in the middle.
+    curve: Id,
+    slope: Id,
+}
+
+impl Integrator<'_> {
+    /// ∫ by Gauss-Legendre nodes, each by what the integrand changes by from the middle: Σ h wⱼ f(h xⱼ).
+    pub(super) fn local_gauss(&mut self, root: Id, count: usize) -> Id {
+        let mean = self.local_mean(root, count);
+        let length = self.length_of_path();
+        mul(self.g, length, mean)
+    }
+
+    /// The mean along the path by the same nodes.
+    pub(super) fn local_mean(&mut self, root: Id, count: usize) -> Id {
+        if !self.moves(root) {
+            return root;
+        }
+        let Some(found) = self.locals_of(root) else {
+            return self.mean(root, count);
+        };
+        let locals: Vec<Local> = found
+            .into_iter()
+            .map(|(id, kind)| self.local(id, kind))
+            .collect();
+        let body = Body::new(self.g, &[root], locals.iter().map(|l| l.id));
+        let mut sum = self.g.real(0.0);
+        for Node { place, weight } in gauss_legendre(count) {
+            let sides: &[f64] = if place == 0.0 { &[1.0] } else { &[1.0, -1.0] };
+            let mut both = self.g.real(0.0);
+            for &side in sides {
+                let s = scale(self.g, place, self.path.half);
+                let values: Vec<(Id, Id)> = locals
+                    .iter()
+                    .map(|l| (l.id, self.local_value(l, s, side)))
+                    .collect();
+                let value = body.at(self.g, &values)[0];
+                both = add(self.g, both, value);
+            }
+            let part = scale(self.g, 0.5 * weight, both);
+            sum = add(self.g, sum, part);
+        }
+        sum
+    }
+
+    /// The largest parts of degree 1 or 2, and exponentials and waves of such. `None` where something else changes along
+    /// the path.
+    fn locals_of(&mut self, root: Id) -> Option<Vec<(Id, Kind)>> {
+        let mut out: FxHashMap<Id, Kind> = FxHashMap::default();
+        let mut stack = vec![root];
+        let mut seen = rustc_hash::FxHashSet::default();
+        while let Some(id) = stack.pop() {
+            if !seen.insert(id) || !self.moves(id) {
+                continue;
+            }
+            if matches!(self.degree(id), Some(1 | 2)) {
+                out.insert(id, Kind::Polynomial);
+                continue;
+            }
+            let node = self.g.node(id).clone();
+            let Op::Apply(prim) = node.op else {
+                return None;
+            };
+            let of = node.args.first().and_then(|&a| self.degree(a));
+            match (prim, of) {
+                (Prim::Exp, Some(1 | 2)) => _ = out.insert(id, Kind::Exponential),
+                (Prim::Log, Some(1 | 2)) => _ = out.insert(id, Kind::Logarithm),
+                (Prim::Sin | Prim::Cos, Some(1)) => _ = out.insert(id, Kind::Wave(prim)),
+                _ => stack.extend(node.args),
+            }
+        }
+        let mut out: Vec<(Id, Kind)> = out.into_iter().collect();
+        out.sort_unstable_by_key(|l| l.0);
+        Some(out)
+    }
+
+    fn local(&mut self, id: Id, kind: Kind) -> Local {
+        let of = match kind {
+            Kind::Polynomial => id,
+            _ => self.g.node(id).args[0],
+        };
+        let middle = if matches!(kind, Kind::Polynomial) && !self.may_cancel(of) {
+            let value = self.at_middle(of);
+            Pair::exact(self.g, value)
+        } else {
+            self.pair_in_middle(of)
+        };
+        let slope = self.slope(of);
+        let curve = self.slope(slope);
+        let [slope, curve] = [slope, curve].map(|id| self.at_middle(id));
+        let values = match kind {
+            Kind::Polynomial => [middle.total(self.g); 2],
+            Kind::Exponential => [call(self.g, Prim::Exp, middle.value); 2],
+            Kind::Logarithm => [call(self.g, Prim::Log, middle.value); 2],
+            Kind::Wave(_) => [Prim::Sin, Prim::Cos].map(|p| self.wave_of(p, middle)),
+        };
+        Local {
+            id,
+            kind,
+            middle,
+            values,
+            curve: scale(self.g, 0.5, curve),
+            slope,
+        }
+    }
+
+    /// At s on one side of the middle.
+    fn local_value(&mut self, of: &Local, s: Id, side: f64) -> Id {
+        let g = &mut *self.g;
+        if let Kind::Wave(prim) = of.kind {
+            let change = mul(g, s, of.slope);
+            let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(g, p, change));
+            let sine = scale(g, side, sine);
+            let [up, along] = of.values;
+            if prim == Prim::Sin {
+                let product = mul(g, along, sine);
+                return mul_add(g, up, cosine, product);
+            }
+            let product = mul(g, up, sine);
+            let back = g.neg(product);
+            return mul_add(g, along, cosine, back);
+        }
+        let s = scale(g, side, s);
+        let rate = mul_add(g, s, of.curve, of.slope);
+        if matches!(of.kind, Kind::Polynomial) {
+            return mul_add(g, s, rate, of.values[0]);
+        }
+        let change = mul_add(g, s, rate, of.middle.rest);
+        if matches!(of.kind, Kind::Logarithm) {
+            let part = div(g, change, of.middle.value);
+            let growth = call(g, Prim::Log1p, part);
+            return add(g, of.values[0], growth);
+        }
+        let growth = call(g, Prim::Exp, change);
+        mul(g, of.values[0], growth)
+    }
+
+    /// Whether a polynomial of degree 1 or 2 may be much smaller than what it is the sum of: not a multiple of a
+    /// coordinate or of its square, nor a sum of such squares and constants none of which is negative.
+    pub(super) fn may_cancel(&mut self, id: Id) -> bool {
+        let mut stack = vec![id];
+        while let Some(of) = stack.pop() {
+            let node = self.g.node(of).clone();
+            let Op::Apply(prim) = node.op else { continue };
+            match (prim, node.args.as_slice()) {
+                (Prim::Neg, &[a]) => stack.push(a),
+                (Prim::Mul, &[a, b]) if !self.moves(a) => stack.push(b),
+                (Prim::Mul | Prim::Div, &[a, b]) if !self.moves(b) => stack.push(a),
+                (Prim::Mul, &[a, b]) => stack.extend([a, b]),
+                (Prim::PowInt(_), &[a]) => stack.push(a),
+                (Prim::Hypot | Prim::Hypot3 | Prim::Sqrt | Prim::Abs, args) => stack.extend(args),
+                (Prim::Add, &[a, b]) if self.is_sum_of_squares(of) => {
+                    stack.extend([a, b].into_iter().filter(|&x| self.moves(x)));
+                }
+                _ if self.moves(of) => return true,
+                _ => {}
+            }
+        }
+        false
+    }
+}
