@@ -68,6 +68,12 @@ pub fn surfaces() -> Vec<Source> {
     files("docs/surfaces", "pull")
 }
 
+/// Pictures of special functions.
+#[must_use]
+pub fn special() -> Vec<Source> {
+    files("docs/special", "pull")
+}
+
 /// A diagnostic that a wrong program must give.
 #[derive(Clone, Debug)]
 pub struct Expected {
@@ -200,11 +206,12 @@ fn fixtures(name: &str) -> Vec<String> {
     texts.collect()
 }
 
-/// Every program that we have: the gallery, the surfaces, the wrong programs, those of the language reference, and the
+/// Every program that we have: the gallery, the surfaces, the special functions, the wrong programs, those of the language reference, and the
 /// texts of the parser's suites.
 #[must_use]
 pub fn all_programs() -> Vec<String> {
-    let drawn = gallery().into_iter().chain(surfaces()).map(|s| s.text);
+    let drawn = gallery().into_iter().chain(surfaces()).chain(special());
+    let drawn = drawn.map(|s| s.text);
     let wrong = wrong_programs().into_iter().map(|p| p.text);
     let document = blocks("docs/language.md").into_iter().map(|b| b.text);
     let fixtures = ["parse.txt", "pasted.txt", "malformed.txt", "format.txt"].map(fixtures);

@@ -3,6 +3,11 @@
 use pullback_compiler::ir::Prim;
 use pullback_compiler::table;
 
+/// The greatest error factor in binary64: 2⁻⁴⁵ of the norm, far below the goal of 10⁻¹².
+pub const MOST_DOUBLE: f64 = 32.0;
+/// In pairs: 2⁻⁴² of the norm.
+pub const MOST_EXTENDED: f64 = 8.0;
+
 /// A formula f(z) whose value is one function.
 #[derive(Clone, Debug)]
 pub struct SpecialFormula {

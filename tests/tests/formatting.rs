@@ -4,13 +4,14 @@
 use pullback_compiler::check::is_builtin_function;
 use pullback_compiler::compile;
 use pullback_grammar::format;
-use pullback_tests::corpus::{all_programs, gallery, surfaces};
+use pullback_tests::corpus::{all_programs, gallery, special, surfaces};
 use pullback_tests::formatting;
 use pullback_tests::mutate::{Random, mutated};
 
 #[test]
 fn the_gallery_is_in_the_canonical_format() {
-    for source in gallery().into_iter().chain(surfaces()) {
+    let drawn = gallery().into_iter().chain(surfaces());
+    for source in drawn.chain(special()) {
         let formatted = format(&source.text, &is_builtin_function);
         assert_eq!(formatted.as_ref(), Some(&source.text), "{}", source.name);
         assert!(

@@ -13,12 +13,7 @@ use pullback_compiler::{EmitWhat, Target, compile};
 use pullback_runtime::executor::Arithmetic;
 use pullback_tests::accuracy::evaluators::{Machine, suite_gpu};
 use pullback_tests::accuracy::formulas::{MOST, Table, special};
-use pullback_tests::special::{functions_of, special_formulas};
-
-/// In binary64: 2⁻⁴⁵ of the norm, far below the goal of 10⁻¹².
-const MOST_DOUBLE: f64 = 32.0;
-/// In pairs: 2⁻⁴² of the norm.
-const MOST_EXTENDED: f64 = 8.0;
+use pullback_tests::special::{MOST_DOUBLE, MOST_EXTENDED, functions_of, special_formulas};
 
 /// Violations of K ≤ `most` on a machine; prints what was measured.
 fn violations(tables: &[Table], machine: &Machine, most: f64) -> Vec<String> {
