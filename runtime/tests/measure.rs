@@ -69,6 +69,68 @@ fn a_tier_that_cannot_hold_the_numbers_is_found_out() {
     assert!(best < double, "{best} {double}");
 }
 
+/// An error of a choice's numbers by themselves.
+fn number<'a>(found: &'a Value, name: &str, quantity: &str) -> &'a Value {
+    let all = choice(found, name)["numbers"].as_array().unwrap();
+    let one = all.iter().find(|n| n["quantity"] == quantity);
+    one.unwrap_or_else(|| panic!("{name} has no {quantity}: {all:?}"))
+}
+
+#[test]
+fn numbers_are_judged_by_themselves() {
+    // binary32 has steps of 1/8 there: the argument of the sine is off by up to a quarter
+    let more = ["--rewrites", "off", "--samples", "1"];
+    let found = found("sin(3(x + 2000000) - 6000000)", &more);
+    let error = |name: &str, quantity: &str| {
+        let error = &number(&found, name, quantity)["error"];
+        ["p999", "max"].map(|which| error[which].as_f64().unwrap())
+    };
+    for quantity in ["value", "gradient", "position"] {
+        let ([single, _], [double, _]) = (error("default", quantity), error("double", quantity));
+        assert!(single > 1e3 * double, "{quantity}: {single} {double}");
+    }
+    let [p999, max] = error("default", "value");
+    assert!((0.05..=max).contains(&p999), "{p999} {max}");
+    // a pixel is 0.17 wide, or 0.5 of the argument; beside extrema lines move without bound
+    let mean = number(&found, "default", "position")["error"]["mean"]
+        .as_f64()
+        .unwrap();
+    assert!((0.05..0.9).contains(&mean), "{mean}");
+}
+
+#[test]
+fn depth_is_judged_where_there_is_a_surface() {
+    let formula =
+        "f(x, y, z) = x^2 + y^2 + z^2 - 1\nshow surface(f) { backdrop = plain, steps = 32 }";
+    let found = found_within(formula, ["48x36", "5"], &["--samples", "1"]);
+    let depth = number(&found, "default", "depth");
+    let max = depth["error"]["max"].as_f64().unwrap();
+    assert!(max > 0.0 && max < 1e-3, "{max}");
+    assert!(depth["pixels"].as_u64().unwrap() > 20 && depth["unit"] == "world units");
+}
+
+#[test]
+fn a_second_run_finds_what_the_first_one_told() {
+    let found = found_within("sin(3x) cos(4y)", ["128x96", "12"], &[]);
+    let second = &found["second_run"];
+    assert_eq!(second["note"], Value::Null, "{second}");
+    let checks = second["checks"].as_array().unwrap();
+    assert!(!checks.is_empty() && checks[0]["choice"] == 0, "{second}");
+    for check in checks {
+        let told = &found["choices"][check["choice"].as_u64().unwrap() as usize];
+        let [told, now] =
+            [&told["error"], &check["error"]].map(|error| error["flip"]["mean"].as_f64().unwrap());
+        // what was found is what the two runs are judged by
+        let allowed = check["allowed_flip"].as_f64().unwrap();
+        let holds = (told - now).abs() <= allowed;
+        assert_eq!(check["error_holds"], holds, "{second}");
+        // the whole of so small a picture is known: the same picture comes again
+        if second["elsewhere"] == false {
+            assert_eq!(told, now, "{second}");
+        }
+    }
+}
+
 #[test]
 fn steps_of_a_volume_are_traded() {
     let formula =
@@ -82,6 +144,13 @@ fn steps_of_a_volume_are_traded() {
         "steps = 64",
     ];
     let errors = names.map(|name| flip(&found, name));
+    assert!(errors[0] > errors[2] && errors[2] > errors[4], "{errors:?}");
+    // light before tone mapping
+    let radiance = |name: &str| {
+        let error = &number(&found, name, "radiance")["error"];
+        error["p999"].as_f64().unwrap()
+    };
+    let errors = names.map(radiance);
     assert!(errors[0] > errors[2] && errors[2] > errors[4], "{errors:?}");
     // a way that the formula does not have says why
     let integral = choice(&found, "steps_by = integral");

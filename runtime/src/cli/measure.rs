@@ -3,6 +3,7 @@
 mod chart;
 mod html;
 mod json;
+mod numbers;
 mod summary;
 mod table;
 
@@ -182,6 +183,7 @@ fn measured(
     subject.scene(tier, console)?;
     let job = Job {
         gpu,
+        picture: subject.picture(),
         frame: subject.frame(&[]),
         choices: &choices,
         scene: &scene,

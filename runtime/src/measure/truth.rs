@@ -5,6 +5,7 @@ use std::sync::mpsc;
 use std::thread::{self, available_parallelism};
 use std::time::{Duration, Instant};
 
+use pullback_compiler::SettingValue;
 use pullback_compiler::lower::Precision;
 
 use super::choice::best;
@@ -63,6 +64,9 @@ fn affordable(job: &Job, all: &[Window], deadline: Instant) -> Result<(Maker, u3
     Ok((maker, samples))
 }
 
+/// Parts of the picture, and their pixels.
+type Made = (Vec<Window>, Vec<Vec<[f32; 4]>>);
+
 /// The true picture at some of its parts.
 pub(super) struct Truth {
     pub(super) layout: Layout,
@@ -70,6 +74,7 @@ pub(super) struct Truth {
     pub(super) samples: u32,
     pub(super) more_steps: bool,
     pub(super) own: Option<Judgement>,
+    maker: Maker,
 }
 
 impl Truth {
@@ -105,7 +110,40 @@ impl Truth {
             samples,
             more_steps: maker.settings.iter().any(|s| s.spec.trades),
             own,
+            maker,
         })
+    }
+
+    /// The settings that it is computed with.
+    pub(super) fn settings(&self) -> &[SettingValue] {
+        &self.maker.settings
+    }
+
+    /// Other parts than those that are known, as many as are done by the deadline and at most so many; nothing where none is.
+    pub(super) fn others(
+        &self,
+        job: &Job,
+        most: usize,
+        deadline: Instant,
+        listener: &mut Listener,
+    ) -> Result<Option<Made>, Error> {
+        let all = parts(job.frame.size);
+        let others = &all[self.layout.windows.len().min(all.len())..];
+        let others = &others[..others.len().min(most)];
+        let cores = available_parallelism().map_or(1, usize::from);
+        let mut made = Vec::new();
+        for group in others.chunks(cores) {
+            listener(
+                "computing the truth in f64 elsewhere",
+                made.len() as u64,
+                others.len() as u64,
+            );
+            match self.maker.made(job, group, deadline, false)? {
+                Some(more) => made.extend(more),
+                None => break,
+            }
+        }
+        Ok((!made.is_empty()).then(|| (others[..made.len()].to_vec(), made)))
     }
 
     /// How far the first parts are from those with half the steps and half the samples.
@@ -143,7 +181,7 @@ impl Truth {
 /// What computes parts of the picture with so many times the default's steps.
 struct Maker {
     painter: Painter,
-    settings: Vec<pullback_compiler::SettingValue>,
+    settings: Vec<SettingValue>,
     samples: u32,
 }
 

@@ -89,6 +89,7 @@ mod tests {
                 seen: spread,
                 doubt: 0.0,
             }),
+            numbers: Vec::new(),
             note: None,
             on_front: false,
         }
