@@ -120,6 +120,14 @@ pub struct Shown {
     pub seen: Vec<f32>,
 }
 
+impl Report {
+    /// Whether the truth is known at enough pixels to say what cannot be seen.
+    #[must_use]
+    pub fn is_enough(&self) -> bool {
+        verdict::is_enough(self.pixels)
+    }
+}
+
 /// Hears what is being done, and how many parts of how many are done.
 pub type Listener<'a> = dyn FnMut(&str, u64, u64) + 'a;
 
@@ -172,7 +180,12 @@ pub fn run(job: &Job, listener: &mut Listener) -> Result<Report, Error> {
     let times = until(1.0 - AGAIN, TIMES);
     timing::take_turns(job, &mut runners, &mut rows, times, listener);
     verdict::mark_front(&mut rows);
-    let advice = verdict::advice(&rows);
+    let size = job.frame.size;
+    let pixels = [
+        truth.pixels(),
+        u64::from(size.width) * u64::from(size.height),
+    ];
+    let advice = verdict::advice(&rows, pixels);
     let again = match job.gpu.is_lost() {
         true => Again {
             note: Some("the adapter is lost".to_owned()),
@@ -189,7 +202,6 @@ pub fn run(job: &Job, listener: &mut Listener) -> Result<Report, Error> {
                 .get_or_insert_with(|| "not drawn: the adapter is lost".to_owned());
         }
     }
-    let size = job.frame.size;
     Ok(Report {
         advice,
         again,
@@ -197,10 +209,7 @@ pub fn run(job: &Job, listener: &mut Listener) -> Result<Report, Error> {
         rows,
         true_samples: truth.samples,
         more_steps: truth.more_steps,
-        pixels: [
-            truth.pixels(),
-            u64::from(size.width) * u64::from(size.height),
-        ],
+        pixels,
         own: truth.own,
         shown,
     })

@@ -165,6 +165,10 @@ pub(super) fn sentences(findings: &Findings) -> Vec<String> {
             name(k),
             against(k)
         ),
+        None if !report.is_enough() => format!(
+            "The truth is known at {} pixels, too few to say what cannot be told from it: give more --budget.",
+            report.pixels[0]
+        ),
         None => format!(
             "No choice gives a picture that cannot be told from the truth (99.9 % of its pixels below a FLIP of {SEEN})."
         ),
