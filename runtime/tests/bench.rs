@@ -97,3 +97,51 @@ fn pictures_are_timed_too() {
         "{table}"
     );
 }
+
+#[test]
+fn tables_go_on_where_they_ended() {
+    let folder = folder();
+    let all = [
+        "bench",
+        "--tables",
+        "out",
+        "--budget",
+        "8",
+        "--size",
+        "32x24",
+        "--adapter",
+        "software",
+        "-q",
+        "a.pull",
+    ];
+    let (code, _, errors) = pullback(folder.path(), &all);
+    assert_eq!(code, 0, "{errors}");
+    let path = |name: &str| folder.path().join("out").join(name);
+    let text = |name: &str| std::fs::read_to_string(path(name)).unwrap();
+    for name in ["programs", "tiers", "choices", "accurate", "double"] {
+        let table = text(&format!("{name}.md"));
+        let lines: Vec<&str> = table.lines().filter(|l| l.starts_with("| a |")).collect();
+        assert_eq!(lines.len(), 1, "{name}: {table}");
+        let cells = |line: &str| line.split('|').count();
+        let head = table.lines().find(|l| l.starts_with("| ")).unwrap();
+        assert_eq!(cells(lines[0]), cells(head), "{name}: {table}");
+    }
+    for name in ["programs", "tiers", "choices"] {
+        let svg = text(&format!("{name}.svg"));
+        assert!(svg.starts_with("<svg") && svg.contains("<circle"), "{svg}");
+    }
+    // what is there is kept, and what is missing is added
+    let kept = text("tiers.md");
+    std::fs::write(folder.path().join("b.pull"), "show levels(x y)\n").unwrap();
+    let more = [&all[..], &["b.pull", "--only", "tiers"]].concat();
+    let (code, _, errors) = pullback(folder.path(), &more);
+    assert_eq!(code, 0, "{errors}");
+    let grown = text("tiers.md");
+    assert!(
+        grown.starts_with(&kept) && grown.contains("\n| b |"),
+        "{grown}"
+    );
+    // a table of something else is not written over
+    std::fs::write(path("tiers.md"), "another\n").unwrap();
+    assert_eq!(pullback(folder.path(), &more).0, 2);
+}

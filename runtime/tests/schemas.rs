@@ -58,6 +58,13 @@ fn measurements() {
     );
     assert_eq!(found["choices"][0]["name"], "default");
     assert_eq!(found["truth"]["pixels"], 32 * 24);
+    assert_eq!(found["choices"][0]["numbers"][0]["quantity"], "value");
+    refused("measure-1", &found, |v| {
+        v["choices"][0]["numbers"][0]["quantity"] = json!("colour");
+    });
+    refused("measure-1", &found, |v| {
+        v["second_run"].as_object_mut().unwrap().remove("holds");
+    });
     refused("measure-1", &found, |v| v["version"] = json!(2));
     refused("measure-1", &found, |v| {
         v["choices"][0]["on_front"] = json!("yes")

@@ -129,3 +129,185 @@ fn positions_of_single_precision_limit_the_zoom_where_they_must() {
     assert!(!frame(0.9 * least).is_resolved(format));
     assert!(frame(1.1 * least).is_resolved(format));
 }
+
+/// Values of a formula of one picture at rows of numbers, in f64 by the reference.
+fn values(source: &str, rows: impl Iterator<Item = Vec<f64>>) -> Vec<f64> {
+    let program = pullback_compiler::compile(source).program.unwrap();
+    let mut evaluator = program.evaluator(0, What::Value).unwrap();
+    let mut out = [0.0];
+    let value = |row: Vec<f64>| {
+        evaluator.eval(&[], 0.0, 1.0, &row, &mut out);
+        out[0]
+    };
+    rows.map(value).collect()
+}
+
+/// Fractional parts of the multiples of a number: evenly spread over [0, 1).
+fn spread(count: u32, by: f64) -> impl Iterator<Item = f64> {
+    (1..=count).map(move |k| (f64::from(k) * by).fract())
+}
+
+#[test]
+fn marching_by_signs_misses_a_twelfth_of_the_squared_step_of_a_silhouette() {
+    // of a unit sphere's disc: where the chord 2u, u² = 1 - b², is shorter than the step h, a march that begins anywhere
+    // steps over it with probability 1 - 2u/h; over the disc that is h²/4 - h²/6
+    const RAYS: u32 = 40_000;
+    for h in [0.5, 0.25] {
+        // how many samples of a ray with square b² of the distance from the middle are inside; the phase is y
+        let count = (3.0 / h) as u32;
+        let source = format!(
+            "f(x, y) = sum(k in 0..{count}, if x + (-1.5 + {h} (k + y))^2 < 1 then 1 else 0)\nshow levels(f)"
+        );
+        let golden = 0.618_033_988_749_895;
+        let plastic = 0.754_877_666_246_693;
+        let rays = spread(RAYS, golden).zip(spread(RAYS, plastic));
+        let found = values(&source, rays.map(|(square, phase)| vec![square, phase]));
+        let missed = found.iter().filter(|inside| **inside == 0.0).count();
+        let share = missed as f64 / f64::from(RAYS);
+        let law = h * h / 12.0;
+        // a count of chance events would spread by this, and these are evener
+        let deviation = (law / f64::from(RAYS)).sqrt();
+        assert!((share - law).abs() < 3.0 * deviation, "{h}: {share} {law}");
+    }
+}
+
+#[test]
+fn our_march_misses_less_of_the_silhouette_than_signs_do() {
+    use pullback_runtime::executor::Window;
+    use pullback_runtime::trace::{Kept, What as Told, watch_on_cpu};
+    let size = Size {
+        width: 160,
+        height: 160,
+    };
+    let still = Still::new(
+        "f(x, y, z) = x² + y² + z² - 1\nshow surface(f) { box = (1.5, 1.5, 1.5), steps = 13, pitch = 0, yaw = 0, \
+         projection = orthographic, extent = 2.2, backdrop = plain }",
+        size,
+        1,
+    );
+    let bytes = still.scene.pack_settings(&still.settings);
+    let frame = pullback_runtime::Frame {
+        view: still.view,
+        params: &[],
+        settings: &bytes,
+        size,
+        samples: 1,
+        time: 0.0,
+        pipeline: Pipeline::Linear,
+    };
+    let kept = [Kept {
+        function: "march",
+        what: Told::Result,
+        name: ".found",
+        slot: 0,
+        closes: true,
+    }];
+    let whole = Window { x: 0, y: 0, size };
+    let never = std::sync::atomic::AtomicBool::new(false);
+    let reference = Arithmetic::Reference;
+    let found = watch_on_cpu(
+        reference,
+        &still.scene,
+        &frame,
+        &still.settings,
+        &kept,
+        &[whole],
+        &never,
+    );
+    let found = &found.unwrap()[0];
+    let places = (0..160).flat_map(|y| (0..160).map(move |x| [x, y]));
+    let at = |k: i32| (f64::from(k) + 0.5 - 80.0) * 2.2 / 160.0;
+    let disc: Vec<bool> = places.map(|[x, y]| at(x).hypot(at(y)) < 1.0).collect();
+    let all = disc.iter().filter(|&&inside| inside).count();
+    let missed = disc
+        .iter()
+        .zip(found)
+        .filter(|(inside, found)| **inside && found[0] == 0.0);
+    let share = missed.count() as f64 / all as f64;
+    // steps of the diagonal of the box, 3√3
+    let h = 3.0 * 3f64.sqrt() / 13.0;
+    let law = h * h / 12.0;
+    assert!(law > 0.01 && share < 0.1 * law, "{share} {law}");
+}
+
+/// Error of a rule for ∫₀¹ exp t dt with stretches of length h, which the language sums; `term` is of the stretch k.
+fn rule(term: &str, count: u32) -> f64 {
+    let text = format!(
+        "h = 1/{count}\nf(x, y) = h sum(k in 0..{}, {term}) + 0 x y\nshow levels(f)",
+        count - 1
+    );
+    values(&text, std::iter::once(vec![0.0, 0.0]))[0] - (1f64.exp() - 1.0)
+}
+
+#[test]
+fn rules_of_sums_have_their_orders_and_constants() {
+    // the first term of the Euler-Maclaurin formula of each: -h²/24, h²/12 and -h⁴/4320 times the difference of the first, and
+    // of the third, derivatives at both ends (P. Davis, P. Rabinowitz, "Methods of Numerical Integration", 1984, 2.9)
+    let ends = 1f64.exp() - 1.0;
+    for (term, order, constant) in [
+        ("exp((k + 0.5) h)", 2, -1.0 / 24.0),
+        ("0.5 (exp(k h) + exp((k + 1) h))", 2, 1.0 / 12.0),
+        (
+            "0.5 (exp((k + 0.5 - 0.5/√3) h) + exp((k + 0.5 + 0.5/√3) h))",
+            4,
+            -1.0 / 4320.0,
+        ),
+    ] {
+        for count in [8, 16] {
+            let h = 1.0 / f64::from(count);
+            let law = constant * ends * h.powi(order);
+            let found = rule(term, count);
+            // the next term is smaller by h²
+            assert!(
+                (found / law - 1.0).abs() < h * h,
+                "{term}, {count}: {found} {law}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_gradient_costs_what_was_counted() {
+    use naga::{BinaryOperator, Expression, MathFunction};
+    use pullback_compiler::ir::cost;
+    use pullback_compiler::module::evaluation;
+    for source in [
+        "f(x) = (x + 2) (x + 3) x",
+        "f(x, y) = (x + 2) (y + 3) (x + y)",
+        "f(x, y, z) = (x + 2) (y + 3) (z + 5) (x + y) (y + z)",
+        "f(x, y, z) = (x + y + z) (x y + y z + z x) (x y z + 1)",
+    ] {
+        let text = source.to_owned();
+        let program = pullback_compiler::compile(&text).program.unwrap();
+        let formula = &program.pictures()[0].formula;
+        for what in [What::Value, What::Gradient] {
+            let counted = evaluation(formula, what).unwrap();
+            let counted = cost(&counted.graph, &counted.roots).operations;
+            let module = program.eval_module(0, what, Precision::Accurate).unwrap();
+            let issued: u32 =
+                module
+                    .module
+                    .functions
+                    .iter()
+                    .filter(|(_, f)| f.name.as_deref() == Some("evaluate"))
+                    .flat_map(|(_, f)| f.expressions.iter().map(|(_, e)| e))
+                    .map(|e| match e {
+                        Expression::Binary {
+                            op:
+                                BinaryOperator::Add
+                                | BinaryOperator::Subtract
+                                | BinaryOperator::Multiply,
+                            ..
+                        } => 1,
+                        // a product and a sum
+                        Expression::Math {
+                            fun: MathFunction::Fma,
+                            ..
+                        } => 2,
+                        _ => 0,
+                    })
+                    .sum();
+            assert_eq!(counted, issued, "{source} {what:?}");
+        }
+    }
+}

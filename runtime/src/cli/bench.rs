@@ -1,7 +1,11 @@
 //! `pullback bench`: what programs cost, from their text to their picture, and whether that has changed.
 
 mod base;
+mod dots;
+mod peers;
 mod table;
+mod tables;
+mod tiers;
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -50,10 +54,26 @@ pub(super) struct BenchArguments {
     /// With --compare, fail where something is slower by more than so many percent beyond doubt
     #[arg(long, value_name = "PERCENT", requires = "compare", value_parser = positive)]
     fail_above: Option<f64>,
+    /// Write the tables of the documentation for this adapter, with their charts, into a folder instead; what is there goes on
+    /// where it ended
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["output", "compare", "no_pictures"])]
+    tables: Option<PathBuf>,
+    /// With --tables, only this one; may be given often [default: all but peers]
+    #[arg(long, value_enum, value_name = "TABLE", requires = "tables")]
+    only: Vec<tables::Part>,
+    /// Time other programs that derive, integrate and evaluate, where they are installed, beside this one
+    #[arg(long, conflicts_with_all = ["output", "compare", "tables"])]
+    peer: bool,
 }
 
 /// Times everything in turns.
 pub(super) fn run(arguments: &BenchArguments, console: &Console) -> Result<(), Failure> {
+    if let Some(folder) = &arguments.tables {
+        return tables::run(arguments, folder, console);
+    }
+    if arguments.peer {
+        return peers::run(arguments, console);
+    }
     let base = arguments.compare.as_deref().map(Run::read).transpose()?;
     let subjects = gallery::subjects(&arguments.inputs, arguments.size, console)?;
     let gpu = if arguments.no_pictures {
@@ -61,32 +81,14 @@ pub(super) fn run(arguments: &BenchArguments, console: &Console) -> Result<(), F
     } else {
         Some(super::open(&arguments.device.adapter, console)?)
     };
-    let mut benches: Vec<Bench> = Vec::new();
-    for subject in subjects {
-        benches.push(Bench::new(subject, gpu.as_ref(), console)?);
-    }
-    // tables that the compiler makes once are no part of what a program costs
-    for bench in &mut benches {
-        bench.turn()?;
-    }
-    let mut run = Run::new(gpu.as_ref(), arguments.size, &benches);
     let budget = Duration::try_from_secs_f64(arguments.budget).unwrap_or(Duration::MAX / 4);
-    let start = Instant::now();
-    let mut progress = Progress::new(console);
-    for turn in 0..TURNS {
-        if turn >= FEWEST && start.elapsed() > budget {
-            break;
-        }
-        run.calibration.push(calibration());
-        for (k, bench) in benches.iter_mut().enumerate() {
-            let done = (turn * run.pictures.len() + k) as u64;
-            progress.update(done, (TURNS * run.pictures.len()) as u64);
-            let times = bench.turn()?;
-            run.pictures[k].add(times);
-        }
-    }
-    progress.finish();
-    run.memory(gpu.as_ref());
+    let run = timed(
+        subjects,
+        gpu.as_ref(),
+        arguments.size,
+        (budget, FEWEST),
+        console,
+    )?;
     table::tell(&run).map_err(Failure::stdout)?;
     if let Some(path) = &arguments.output {
         atomic_file::write_text(path, &run.to_json()).map_err(|error| Failure::Io {
@@ -108,6 +110,42 @@ pub(super) fn run(arguments: &BenchArguments, console: &Console) -> Result<(), F
         "{slower} times are greater by more than --fail-above"
     ));
     Err(Failure::Program)
+}
+
+/// Times programs in turns, until the budget is spent, but so many turns at least.
+fn timed(
+    subjects: Vec<Subject>,
+    gpu: Option<&Gpu>,
+    size: Size,
+    (budget, fewest): (Duration, usize),
+    console: &Console,
+) -> Result<Run, Failure> {
+    let mut benches: Vec<Bench> = Vec::new();
+    for subject in subjects {
+        benches.push(Bench::new(subject, gpu, console)?);
+    }
+    // tables that the compiler makes once are no part of what a program costs
+    for bench in &mut benches {
+        bench.turn()?;
+    }
+    let mut run = Run::new(gpu, size, &benches);
+    let start = Instant::now();
+    let mut progress = Progress::new(console);
+    for turn in 0..TURNS {
+        if turn >= fewest && start.elapsed() > budget {
+            break;
+        }
+        run.calibration.push(calibration());
+        for (k, bench) in benches.iter_mut().enumerate() {
+            let done = (turn * run.pictures.len() + k) as u64;
+            progress.update(done, (TURNS * run.pictures.len()) as u64);
+            let times = bench.turn()?;
+            run.pictures[k].add(times);
+        }
+    }
+    progress.finish();
+    run.memory(gpu);
+    Ok(run)
 }
 
 /// A program that is timed.

@@ -1,6 +1,6 @@
 //! `pullback gallery`: many programs on one sheet.
 
-mod compare;
+pub(in crate::cli) mod compare;
 
 use std::path::{Path, PathBuf};
 

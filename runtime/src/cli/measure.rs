@@ -3,14 +3,15 @@
 mod chart;
 mod html;
 mod json;
-mod summary;
+mod numbers;
+pub(super) mod summary;
 mod table;
 
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 use std::time::Duration;
 
-use clap::{Args, ValueEnum};
+use clap::{Args, Parser, ValueEnum};
 use pullback_compiler::SettingValue;
 use pullback_compiler::lower::Tier;
 use pullback_runtime::measure::{self, Choice, Job, Report};
@@ -103,14 +104,41 @@ pub(super) fn run(arguments: &MeasureArguments, console: &Console) -> Result<(),
     let head = summary::head(&gpu.adapter().to_string(), arguments.size);
     let mut table = summary::Table::open(head, arguments.output.as_deref())?;
     for input in &arguments.inputs {
-        if table.has(input) {
+        let label = summary::label(input);
+        if table.has(&label) {
             console.note(&format!("{}: in the table", input.to_string_lossy()));
             continue;
         }
         let (_, report) = measured(arguments, input, &gpu, console)?;
-        table.add(&summary::row(input, &report))?;
+        table.add(&summary::row(&label, &report))?;
     }
     Ok(())
+}
+
+/// The arguments by themselves.
+#[derive(Debug, Parser)]
+struct Alone {
+    #[command(flatten)]
+    arguments: MeasureArguments,
+}
+
+/// The line of a program's picture in a table of several, measured within so many seconds.
+pub(super) fn line(
+    label: &str,
+    text: &str,
+    size: Size,
+    seconds: f64,
+    gpu: &Gpu,
+    console: &Console,
+) -> Result<String, Failure> {
+    let (size, seconds) = (
+        format!("{}x{}", size.width, size.height),
+        seconds.to_string(),
+    );
+    let words = ["measure", "--size", &size, "--budget", &seconds, "--", text];
+    let alone = Alone::try_parse_from(words).map_err(|error| Failure::usage(error.to_string()))?;
+    let (_, report) = measured(&alone.arguments, OsStr::new(text), gpu, console)?;
+    Ok(summary::row(label, &report))
 }
 
 /// Measures one picture, and tells all that was found.
@@ -182,6 +210,7 @@ fn measured(
     subject.scene(tier, console)?;
     let job = Job {
         gpu,
+        picture: subject.picture(),
         frame: subject.frame(&[]),
         choices: &choices,
         scene: &scene,

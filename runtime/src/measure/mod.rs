@@ -4,38 +4,51 @@
 //! parts of the picture that are spread over it, as many as the budget allows. Every choice is drawn on the adapter and judged
 //! there; then all are timed in turns, in an order that changes, so that drift hits all alike.
 
+mod again;
 mod choice;
 mod judgement;
 mod layout;
+mod numbers;
+mod readings;
+mod referee;
 mod timing;
 mod truth;
 mod verdict;
 
+use std::fmt;
 use std::time::{Duration, Instant};
 
 use pullback_compiler::lower::{Precision, Tier};
-use pullback_compiler::{SceneModule, SettingValue};
+use pullback_compiler::{Picture, SceneModule, SettingValue};
 
 use crate::difference::Bitmap;
 use crate::render::{Frame, Pipeline};
 use crate::{Capabilities, Error, Gpu, Renderer};
 
+pub use again::{Again, Check};
 pub use choice::{Choice, choices};
 pub use judgement::{Judgement, Spread};
+pub use numbers::Number;
+pub use readings::Quantity;
 pub use timing::Time;
 pub use verdict::Advice;
 
 use judgement::{Parts, judge};
+use layout::Layout;
+use referee::Referee;
 use timing::Runner;
 use truth::Truth;
 
 /// A FLIP that cannot be seen: about that of two steps of 255 in a wide area of middle grey (0.048; one has 0.030).
 pub const SEEN: f64 = 0.05;
 
-/// Shares of the budget for the truth, for drawing all choices, and for timing them. What one leaves is for the next.
-const TRUTH: f64 = 0.4;
-const PICTURES: f64 = 0.3;
-const TIMES: f64 = 0.3;
+/// Shares of the budget for the truth, for drawing all choices, for their numbers, for timing them, and for drawing again
+/// what is recommended. What one leaves is for the next.
+const TRUTH: f64 = 0.35;
+const PICTURES: f64 = 0.25;
+const NUMBERS: f64 = 0.1;
+const TIMES: f64 = 0.2;
+const AGAIN: f64 = 0.1;
 
 /// Makes a scene's shader for settings and a tier; what is wrong in words.
 pub type MakeScene<'a> = dyn Fn(&[SettingValue], Tier) -> Result<SceneModule, String> + 'a;
@@ -44,6 +57,8 @@ pub type MakeScene<'a> = dyn Fn(&[SettingValue], Tier) -> Result<SceneModule, St
 pub struct Job<'a> {
     /// The adapter.
     pub gpu: &'a Gpu,
+    /// What is shown.
+    pub picture: &'a Picture,
     /// The picture: its view, size, parameters and clock; samples and settings are those of the choices.
     pub frame: Frame<'a>,
     /// The choices, the default first.
@@ -63,6 +78,8 @@ pub struct Row {
     pub time: Option<Time>,
     /// How far the picture is from the truth, where it was drawn.
     pub error: Option<Judgement>,
+    /// How far the numbers are from the true ones that it is made of; none where they were not compared.
+    pub numbers: Vec<Number>,
     /// Why something is missing.
     pub note: Option<String>,
     /// Whether no other choice is as fast and as accurate.
@@ -86,6 +103,10 @@ pub struct Report {
     pub own: Option<Judgement>,
     /// The parts of the true picture, of the default one, and FLIP of each pixel.
     pub shown: Option<Shown>,
+    /// Whether what is recommended holds in a second run.
+    pub again: Again,
+    /// Why there are no numbers, or none of some choices.
+    pub numbers_note: Option<String>,
 }
 
 /// Pictures for a report.
@@ -97,6 +118,14 @@ pub struct Shown {
     pub default: Bitmap,
     /// FLIP of each pixel of these.
     pub seen: Vec<f32>,
+}
+
+impl Report {
+    /// Whether the truth is known at enough pixels to say what cannot be seen.
+    #[must_use]
+    pub fn is_enough(&self) -> bool {
+        verdict::is_enough(self.pixels)
+    }
 }
 
 /// Hears what is being done, and how many parts of how many are done.
@@ -123,7 +152,7 @@ pub fn run(job: &Job, listener: &mut Listener) -> Result<Report, Error> {
             rows[k].note = Some("not drawn: the budget is spent".to_owned());
             continue;
         }
-        match drawn(job, choice, &truth, pictures) {
+        match drawn(job, choice, &truth.layout, Some(pictures)) {
             Ok((runner, parts)) => {
                 let (judgement, map) = judge(&truth.layout, &truth.parts, &parts)?;
                 rows[k].error = Some(judgement);
@@ -146,18 +175,41 @@ pub fn run(job: &Job, listener: &mut Listener) -> Result<Report, Error> {
             }
         }
     }
-    timing::take_turns(job, &mut runners, &mut rows, until(1.0, TIMES), listener);
+    let numbers = until(TRUTH + PICTURES + NUMBERS, NUMBERS);
+    let numbers = judge_numbers(job, &truth, &mut rows, numbers, listener);
+    let times = until(1.0 - AGAIN, TIMES);
+    timing::take_turns(job, &mut runners, &mut rows, times, listener);
     verdict::mark_front(&mut rows);
     let size = job.frame.size;
+    let pixels = [
+        truth.pixels(),
+        u64::from(size.width) * u64::from(size.height),
+    ];
+    let advice = verdict::advice(&rows, pixels);
+    let again = match job.gpu.is_lost() {
+        true => Again {
+            note: Some("the adapter is lost".to_owned()),
+            ..Again::default()
+        },
+        false => {
+            let deadline = until(1.0, AGAIN);
+            again::again(job, &truth, &rows, &runners, advice, deadline, listener)
+        }
+    };
+    if job.gpu.is_lost() {
+        for row in rows.iter_mut().filter(|row| row.error.is_none()) {
+            row.note
+                .get_or_insert_with(|| "not drawn: the adapter is lost".to_owned());
+        }
+    }
     Ok(Report {
-        advice: verdict::advice(&rows),
+        advice,
+        again,
+        numbers_note: numbers.err().map(|error| error.to_string()),
         rows,
         true_samples: truth.samples,
         more_steps: truth.more_steps,
-        pixels: [
-            truth.pixels(),
-            u64::from(size.width) * u64::from(size.height),
-        ],
+        pixels,
         own: truth.own,
         shown,
     })
@@ -169,10 +221,45 @@ impl Row {
             name: choice.name(),
             time: None,
             error: None,
+            numbers: Vec::new(),
             note: None,
             on_front: false,
         }
     }
+}
+
+/// Compares the numbers of all choices that were drawn, until the deadline.
+fn judge_numbers(
+    job: &Job,
+    truth: &Truth,
+    rows: &mut [Row],
+    deadline: Instant,
+    listener: &mut Listener,
+) -> Result<(), Trouble> {
+    listener("computing true numbers", 0, 1);
+    let Some(mut referee) = Referee::new(job, truth, deadline)? else {
+        return Ok(());
+    };
+    let total = rows.len() as u64;
+    let mut trouble = None;
+    for (k, (row, choice)) in (0..).zip(rows.iter_mut().zip(job.choices)) {
+        listener("comparing numbers", k, total);
+        if row.error.is_none() {
+            continue;
+        }
+        if k > 0 && Instant::now() > deadline {
+            trouble = Some(Trouble::Choice("the budget is spent".to_owned()));
+            break;
+        }
+        match referee.judge(choice) {
+            Ok(numbers) => row.numbers = numbers,
+            Err(found) => trouble = Some(found),
+        }
+        if job.gpu.is_lost() {
+            break;
+        }
+    }
+    trouble.map_or(Ok(()), Err)
 }
 
 /// Why a choice was not drawn.
@@ -183,18 +270,27 @@ enum Trouble {
     Device(Error),
 }
 
+impl fmt::Display for Trouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Choice(note) => f.write_str(note),
+            Self::Device(error) => error.fmt(f),
+        }
+    }
+}
+
 impl From<Error> for Trouble {
     fn from(error: Error) -> Self {
         Self::Device(error)
     }
 }
 
-/// A choice, ready to be timed, and the parts of its picture.
+/// A choice, ready to be timed, and the parts of its picture, if that can be had by the deadline.
 fn drawn(
     job: &Job,
     choice: &Choice,
-    truth: &Truth,
-    deadline: Instant,
+    layout: &Layout,
+    deadline: Option<Instant>,
 ) -> Result<(Runner, Parts), Trouble> {
     if !job.gpu.has(choice.precision) {
         return Err(Trouble::Choice("the adapter does not have it".to_owned()));
@@ -207,19 +303,25 @@ fn drawn(
         scene.pack_settings(&choice.settings),
         choice.samples,
     );
-    let left = deadline.saturating_duration_since(Instant::now());
-    let expected = runner.expected(&job.frame)?;
-    if expected > left {
-        let seconds = expected.as_secs_f64();
-        let digits = usize::from(seconds < 10.0);
-        return Err(Trouble::Choice(format!(
-            "not drawn: a picture would take about {seconds:.digits$} s, more than the budget has left"
-        )));
+    if let Some(deadline) = deadline {
+        fits(runner.expected(&job.frame)?, deadline)?;
     }
     let mut rows = Vec::new();
     runner.draw(&job.frame, &mut rows)?;
-    let parts = truth.layout.cut(&rows, job.frame.size.width);
-    Ok((runner, Parts::new(&truth.layout, parts)?))
+    let parts = layout.cut(&rows, job.frame.size.width);
+    Ok((runner, Parts::new(layout, parts)?))
+}
+
+/// Whether a picture that takes so long is there by the deadline.
+fn fits(expected: Duration, deadline: Instant) -> Result<(), Trouble> {
+    if expected <= deadline.saturating_duration_since(Instant::now()) {
+        return Ok(());
+    }
+    let seconds = expected.as_secs_f64();
+    let digits = usize::from(seconds < 10.0);
+    Err(Trouble::Choice(format!(
+        "not drawn: a picture would take about {seconds:.digits$} s, more than the budget has left"
+    )))
 }
 
 /// The frame of a choice.

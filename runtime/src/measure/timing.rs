@@ -108,6 +108,11 @@ impl Runner {
         Ok(())
     }
 
+    /// Seconds of each turn.
+    pub(super) fn times(&self) -> &[f64] {
+        &self.times
+    }
+
     fn time(&self) -> Option<Time> {
         let mut sorted = self.times.clone();
         sorted.sort_by(f64::total_cmp);
@@ -137,19 +142,36 @@ pub(super) fn take_turns(
     deadline: Instant,
     listener: &mut Listener,
 ) {
+    turns(job, runners, 0, deadline, listener, &mut |k, error| {
+        rows[k].note = Some(error.to_string());
+    });
+    for (row, runner) in rows.iter_mut().zip(runners) {
+        row.time = runner.as_ref().and_then(Runner::time);
+    }
+}
+
+/// Times what can be drawn until the deadline, in turns that are numbered from `first` on; `failed` hears of what cannot.
+pub(super) fn turns(
+    job: &Job,
+    runners: &mut [Option<Runner>],
+    first: u64,
+    deadline: Instant,
+    listener: &mut Listener,
+    failed: &mut dyn FnMut(usize, Error),
+) {
     let mut ready: Vec<(usize, f64)> = Vec::new();
     for (k, runner) in runners.iter_mut().enumerate() {
         let Some(runner) = runner else { continue };
         listener("timing", 0, TURNS);
         match runner.prepare(&job.frame) {
             Ok(seconds) => ready.push((k, seconds)),
-            Err(error) => rows[k].note = Some(error.to_string()),
+            Err(error) => failed(k, error),
         }
     }
     for turn in 0..TURNS {
         listener("timing", turn, TURNS);
         // another order each time, so that none always follows the same one
-        ready.sort_by_key(|(k, _)| mixed(turn << 32 | *k as u64));
+        ready.sort_by_key(|(k, _)| mixed((first + turn) << 32 | *k as u64));
         ready.retain(|&(k, seconds)| {
             let left = deadline
                 .saturating_duration_since(Instant::now())
@@ -163,7 +185,7 @@ pub(super) fn take_turns(
             match runner.turn(&job.frame) {
                 Ok(()) => true,
                 Err(error) => {
-                    rows[k].note = Some(error.to_string());
+                    failed(k, error);
                     false
                 }
             }
@@ -171,8 +193,5 @@ pub(super) fn take_turns(
         if Instant::now() > deadline {
             break;
         }
-    }
-    for (row, runner) in rows.iter_mut().zip(runners) {
-        row.time = runner.as_ref().and_then(Runner::time);
     }
 }

@@ -5,6 +5,7 @@ use std::sync::mpsc;
 use std::thread::{self, available_parallelism};
 use std::time::{Duration, Instant};
 
+use pullback_compiler::SettingValue;
 use pullback_compiler::lower::Precision;
 
 use super::choice::best;
@@ -22,45 +23,90 @@ const CHECKED: usize = 4;
 
 /// How long that may take where the parts have taken all the time that there was.
 const PATIENCE: Duration = Duration::from_secs(2);
+/// Sides of parts, from the usual ones to one group of lanes.
+const SIDES: [u32; 2] = [32, 16];
+const SMALLEST: u32 = 8;
+/// Parts that are tried for how long they take.
+const TRIED: usize = 3;
 /// Parts that the truth should have, even if it then has fewer samples.
 const WANTED: usize = 16;
 
 /// What computes the truth, with as many samples as leave time for enough parts: twice as many along each axis as any choice
 /// has, or at least one more.
-fn affordable(job: &Job, all: &[Window], deadline: Instant) -> Result<(Maker, u32), Error> {
+/// The parts are smaller where even one of them with the least samples would take too long.
+fn affordable(job: &Job, all: &mut [Window], deadline: Instant) -> Result<(Maker, u32), Error> {
     let most = job.choices.iter().map(|c| c.samples).max().unwrap_or(1);
     let [least, wanted] = [most + 1, 2 * most].map(|n| n.clamp(2, MAX_SAMPLES));
     let mut maker = Maker::new(job, STEPS[0], 1)?;
-    let size = job.frame.size;
-    // one group of lanes in the middle of the picture
-    let middle = Window {
-        x: size.width / 2,
-        y: size.height / 2,
-        size: Size {
-            width: (size.width - size.width / 2).min(8),
-            height: (size.height - size.height / 2).min(8),
-        },
-    };
-    let start = Instant::now();
-    maker.made(job, &[middle], deadline, true)?;
+    let slowest = slowest_pixel(job, &maker, all, deadline)?;
     let cores = available_parallelism().map_or(1, usize::from);
-    let of_middle = f64::from(middle.size.width * middle.size.height);
+    let left = deadline
+        .saturating_duration_since(Instant::now())
+        .as_secs_f64();
+    let shot = slowest * f64::from(least * least);
+    let is_short = |side: &u32| shot * f64::from(side * side) <= left;
+    let side = SIDES.into_iter().find(is_short).unwrap_or(SMALLEST);
+    for window in all.iter_mut() {
+        *window = middle(*window, side);
+    }
     let pixels: u32 = all
         .iter()
         .take(WANTED)
         .map(|w| w.size.width * w.size.height)
         .sum();
-    let one = start.elapsed().as_secs_f64() / of_middle * f64::from(pixels) / cores as f64;
-    let left = deadline
-        .saturating_duration_since(Instant::now())
-        .as_secs_f64();
+    let one = slowest * f64::from(pixels) / cores as f64;
     let fits = |n: &u32| one * f64::from(n * n) <= left;
-    let samples = (least..=wanted.max(least))
-        .rev()
-        .find(fits)
-        .unwrap_or(least);
+    let enough = (least..=wanted.max(least)).rev().find(fits);
+    // what takes minutes has a truth of few samples, which says how far off it is itself
+    let group = slowest * f64::from(SMALLEST * SMALLEST);
+    let some = (2..=least).rev().find(|n| group * f64::from(n * n) <= left);
+    let samples = enough.or(some).unwrap_or(2);
     maker.samples = samples;
     Ok((maker, samples))
+}
+
+/// Parts of the picture, and their pixels.
+type Made = (Vec<Window>, Vec<Vec<[f32; 4]>>);
+
+/// The middle of a part, of at most this side.
+fn middle(part: Window, side: u32) -> Window {
+    let Size { width, height } = part.size;
+    let size = Size {
+        width: width.min(side),
+        height: height.min(side),
+    };
+    Window {
+        x: part.x + (width - size.width) / 2,
+        y: part.y + (height - size.height) / 2,
+        size,
+    }
+}
+
+/// Seconds of a pixel of one sample, from one group of lanes each in the middle of the picture and of its first parts: the
+/// greatest, as some parts of a picture are empty.
+fn slowest_pixel(
+    job: &Job,
+    maker: &Maker,
+    all: &[Window],
+    deadline: Instant,
+) -> Result<f64, Error> {
+    let whole = Window {
+        x: 0,
+        y: 0,
+        size: job.frame.size,
+    };
+    let mut slowest: f64 = 0.0;
+    for part in [whole].iter().chain(all.iter().take(TRIED)) {
+        let group = middle(*part, SMALLEST);
+        let start = Instant::now();
+        maker.made(job, &[group], deadline, true)?;
+        let pixels = f64::from(group.size.width * group.size.height);
+        slowest = slowest.max(start.elapsed().as_secs_f64() / pixels);
+        if Instant::now() > deadline {
+            break;
+        }
+    }
+    Ok(slowest)
 }
 
 /// The true picture at some of its parts.
@@ -70,6 +116,9 @@ pub(super) struct Truth {
     pub(super) samples: u32,
     pub(super) more_steps: bool,
     pub(super) own: Option<Judgement>,
+    maker: Maker,
+    /// All parts of the picture, those that are known first.
+    all: Vec<Window>,
 }
 
 impl Truth {
@@ -79,10 +128,10 @@ impl Truth {
         deadline: Instant,
         listener: &mut Listener,
     ) -> Result<Self, Error> {
-        let all = parts(job.frame.size);
+        let mut all = parts(job.frame.size);
         let cores = available_parallelism().map_or(1, usize::from);
         let mut known: Vec<Vec<[f32; 4]>> = Vec::new();
-        let (maker, samples) = affordable(job, &all, deadline)?;
+        let (maker, samples) = affordable(job, &mut all, deadline)?;
         for group in all.chunks(cores) {
             listener(
                 "computing the truth in f64",
@@ -105,7 +154,40 @@ impl Truth {
             samples,
             more_steps: maker.settings.iter().any(|s| s.spec.trades),
             own,
+            maker,
+            all,
         })
+    }
+
+    /// The settings that it is computed with.
+    pub(super) fn settings(&self) -> &[SettingValue] {
+        &self.maker.settings
+    }
+
+    /// Other parts than those that are known, as many as are done by the deadline and at most so many; nothing where none is.
+    pub(super) fn others(
+        &self,
+        job: &Job,
+        most: usize,
+        deadline: Instant,
+        listener: &mut Listener,
+    ) -> Result<Option<Made>, Error> {
+        let others = &self.all[self.layout.windows.len().min(self.all.len())..];
+        let others = &others[..others.len().min(most)];
+        let cores = available_parallelism().map_or(1, usize::from);
+        let mut made = Vec::new();
+        for group in others.chunks(cores) {
+            listener(
+                "computing the truth in f64 elsewhere",
+                made.len() as u64,
+                others.len() as u64,
+            );
+            match self.maker.made(job, group, deadline, false)? {
+                Some(more) => made.extend(more),
+                None => break,
+            }
+        }
+        Ok((!made.is_empty()).then(|| (others[..made.len()].to_vec(), made)))
     }
 
     /// How far the first parts are from those with half the steps and half the samples.
@@ -143,7 +225,7 @@ impl Truth {
 /// What computes parts of the picture with so many times the default's steps.
 struct Maker {
     painter: Painter,
-    settings: Vec<pullback_compiler::SettingValue>,
+    settings: Vec<SettingValue>,
     samples: u32,
 }
 

@@ -11,6 +11,14 @@ pub struct Advice {
     pub half: Option<usize>,
 }
 
+/// Pixels of which 99.9 % means something.
+const ENOUGH: u64 = 1000;
+
+/// Whether the truth is known at enough of a picture's pixels to say what cannot be seen.
+pub(super) fn is_enough([known, all]: [u64; 2]) -> bool {
+    known >= ENOUGH.min(all)
+}
+
 /// Marks the rows that no other beats in time and in error.
 pub(super) fn mark_front(rows: &mut [Row]) {
     let known: Vec<Option<(Time, f64)>> = rows
@@ -29,15 +37,15 @@ pub(super) fn mark_front(rows: &mut [Row]) {
     }
 }
 
-/// What to take.
-pub(super) fn advice(rows: &[Row]) -> Advice {
+/// What to take. What cannot be seen is not known where the truth is at less than [`ENOUGH`] of the picture's pixels.
+pub(super) fn advice(rows: &[Row], [known, all]: [u64; 2]) -> Advice {
     let measured = || {
         rows.iter()
             .enumerate()
             .filter_map(|(k, row)| Some((k, row, place(row)?)))
     };
     let unseen = measured()
-        .filter(|(_, row, _)| row.is_unseen())
+        .filter(|(_, row, _)| row.is_unseen() && is_enough([known, all]))
         .min_by(|a, b| a.2.0.total_cmp(&b.2.0));
     let default = measured().find(|(k, ..)| *k == 0).map(|(.., here)| here.0);
     let half = default.and_then(|time| {
@@ -89,6 +97,7 @@ mod tests {
                 seen: spread,
                 doubt: 0.0,
             }),
+            numbers: Vec::new(),
             note: None,
             on_front: false,
         }
@@ -123,9 +132,12 @@ mod tests {
             row(2.0, 2.0 * SEEN),
             row(1.0, 0.5),
         ];
-        let found = advice(&rows);
+        let found = advice(&rows, [5000; 2]);
         assert_eq!((found.unseen, found.half), (Some(1), Some(2)));
-        assert_eq!(advice(&rows[..2]).half, None);
-        assert_eq!(advice(&rows[2..]).unseen, None);
+        assert_eq!(advice(&rows[..2], [5000; 2]).half, None);
+        assert_eq!(advice(&rows[2..], [5000; 2]).unseen, None);
+        // of a few pixels nothing is said, but where they are all
+        assert_eq!(advice(&rows, [128, 5000]).unseen, None);
+        assert_eq!(advice(&rows, [128, 128]).unseen, Some(1));
     }
 }

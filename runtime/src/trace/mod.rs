@@ -19,6 +19,7 @@ mod scan;
 mod site;
 mod text;
 mod traced;
+mod watch;
 
 pub use cpu::{pixel_on_cpu, row_on_cpu};
 pub use fault::{Fault, first_fault};
@@ -30,6 +31,7 @@ pub use recorders::Recorders;
 pub use scan::{Oddities, scan, scan_on_cpu};
 pub use site::{Event, Operand, Shape, Site, Trace, Value, What};
 pub use traced::Traced;
+pub use watch::{GpuWatcher, Kept, Numbers, watch_on_cpu};
 
 use pullback_compiler::link::is_stub;
 use pullback_compiler::module::DEMANDS;

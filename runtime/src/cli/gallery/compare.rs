@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use pullback_compiler::lower::Precision;
+use pullback_runtime::Size;
 use pullback_runtime::atomic_file::write_text;
 use pullback_runtime::difference::{self, Bitmap, Difference, PIXELS_PER_DEGREE};
 use serde::Serialize;
@@ -20,7 +21,7 @@ use crate::cli::{Console, Numbers};
 const VERSION: u32 = 1;
 
 /// A picture, and how far its two drawings are apart.
-struct Row {
+pub(in crate::cli) struct Row {
     name: String,
     scene: &'static str,
     found: Difference,
@@ -45,12 +46,8 @@ pub(super) fn run(
     let mut rows = Vec::new();
     let mut failed = subjects.failed;
     for (k, subject) in (1..).zip(&subjects.pictures) {
-        match compared(subject, [&a, &b], console) {
-            Ok(found) => rows.push(Row {
-                name: subject.source.stem.clone(),
-                scene: subject.picture().scene.name,
-                found,
-            }),
+        match Row::new(subject, [&a, &b], console) {
+            Ok(row) => rows.push(row),
             Err(failure) => {
                 failure.report(console);
                 console.warning(&format!("{} is not compared", subject.source.name));
@@ -74,7 +71,7 @@ pub(super) fn run(
 }
 
 /// What draws, and in which precision.
-fn told((computer, numbers): &(Computer, Numbers)) -> String {
+pub(in crate::cli) fn told((computer, numbers): &(Computer, Numbers)) -> String {
     match numbers.precision {
         Some(tier) => {
             let name = tier.precision().map_or("auto", Precision::name);
@@ -97,6 +94,51 @@ fn compared(
     }
     difference::compare(&pictures[0], &pictures[1], &mut |_, _| {})
         .map_err(Failure::writing("pictures"))
+}
+
+/// The head of the table of two computers.
+pub(in crate::cli) fn head([a, b]: &[String; 2], size: Size) -> String {
+    format!(
+        "{a}, and {b}; {}x{} pixels, four samples each.\n\n\
+         | Picture | Scene | Off by more than 1/255 | 99.9 % below | Greatest | FLIP, mean | FLIP, greatest | At |\n\
+         | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+        size.width, size.height
+    )
+}
+
+impl Row {
+    /// A picture, drawn by two computers.
+    pub(in crate::cli) fn new(
+        subject: &Subject,
+        computers: [&(Computer, Numbers); 2],
+        console: &Console,
+    ) -> Result<Self, Failure> {
+        Ok(Self {
+            name: subject.source.stem.clone(),
+            scene: subject.picture().scene.name,
+            found: compared(subject, computers, console)?,
+        })
+    }
+
+    /// Its line of the table.
+    pub(in crate::cli) fn line(&self) -> String {
+        let Self { name, scene, found } = self;
+        let (worst, seen) = (found.numeric.worst(), &found.perceptual);
+        let [x, y] = seen.worst;
+        let place = if seen.max > 0.0 {
+            format!("{x},{y}")
+        } else {
+            String::new()
+        };
+        format!(
+            "| {name} | {scene} | {:.3} % | {:.4} | {:.4} | {:.6} | {:.4} | {place} |\n",
+            100.0 * found.numeric.shares[0],
+            worst.p999,
+            worst.max,
+            seen.mean,
+            seen.max
+        )
+    }
 }
 
 struct Report<'a> {
@@ -125,30 +167,9 @@ impl Report<'_> {
     }
 
     fn markdown(&self) -> String {
-        let [a, b] = &self.names;
-        let size = self.arguments.tile;
-        let mut text = format!(
-            "{a}, and {b}; {}x{} pixels, four samples each.\n\n\
-             | Picture | Scene | Off by more than 1/255 | 99.9 % below | Greatest | FLIP, mean | FLIP, greatest | At |\n\
-             | --- | --- | --- | --- | --- | --- | --- | --- |\n",
-            size.width, size.height
-        );
-        for Row { name, scene, found } in &self.rows {
-            let (worst, seen) = (found.numeric.worst(), &found.perceptual);
-            let [x, y] = seen.worst;
-            let place = if seen.max > 0.0 {
-                format!("{x},{y}")
-            } else {
-                String::new()
-            };
-            text += &format!(
-                "| {name} | {scene} | {:.3} % | {:.4} | {:.4} | {:.6} | {:.4} | {place} |\n",
-                100.0 * found.numeric.shares[0],
-                worst.p999,
-                worst.max,
-                seen.mean,
-                seen.max
-            );
+        let mut text = head(&self.names, self.arguments.tile);
+        for row in &self.rows {
+            text += &row.line();
         }
         text
     }

@@ -6,11 +6,10 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use pullback_runtime::Error;
 use pullback_runtime::difference::{Bitmap, heat_map};
-use pullback_runtime::measure::Row;
+use pullback_runtime::measure::{Report, Row};
 
-use super::Findings;
-use super::chart;
 use super::table::{brief, head, sentences};
+use super::{Findings, chart, numbers};
 
 const STYLE: &str = "body { font: 15px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; \
     color: #222 } table { border-collapse: collapse; font-variant-numeric: tabular-nums } td, th { padding: .15rem .6rem; \
@@ -33,10 +32,22 @@ pub(super) fn page(findings: &Findings) -> Result<String, Error> {
     for sentence in sentences(findings) {
         let _ = writeln!(out, "<li>{}</li>", escaped(&sentence));
     }
-    out += "</ul>\n<h2>Time against error</h2>\n";
+    out += "</ul>\n";
+    let second = numbers::second_run(report);
+    if !second.is_empty() {
+        out += "<h2>A second run</h2>\n<ul>\n";
+    }
+    for line in &second {
+        let _ = writeln!(out, "<li>{}</li>", escaped(line.trim()));
+    }
+    if !second.is_empty() {
+        out += "</ul>\n";
+    }
+    out += "<h2>Time against error</h2>\n";
     out += &chart::svg(&report.rows);
     out += "<p>Numbers are those of the table; blue is the front, of which nothing is beaten in both, orange the default.</p>\n";
     out += &table(&report.rows);
+    out += &numbers_table(report);
     if let Some(shown) = &report.shown {
         let size = shown.truth.size();
         out += "<h2>Where they differ</h2>\n";
@@ -104,6 +115,50 @@ fn table(rows: &[Row]) -> String {
             }
         }
         out += "</tr>\n";
+    }
+    out + "</table>\n"
+}
+
+/// Errors of numbers by themselves.
+fn numbers_table(report: &Report) -> String {
+    let mut out = String::new();
+    let caption = numbers::caption(report);
+    if caption.is_empty() {
+        return out;
+    }
+    out += "<h2>Numbers</h2>\n";
+    for line in caption {
+        let _ = writeln!(out, "<p>{}</p>", escaped(&line));
+    }
+    let quantities = numbers::quantities(&report.rows);
+    out += "<table>\n<tr><th></th><th class=\"name\">choice</th>";
+    for &quantity in &quantities {
+        let _ = write!(
+            out,
+            "<th>{}: 99.9 %</th><th>max</th>",
+            escaped(&numbers::head(quantity))
+        );
+    }
+    out += "<th>apart</th></tr>\n";
+    for (k, row) in (1..).zip(&report.rows) {
+        if row.numbers.is_empty() {
+            continue;
+        }
+        let _ = write!(
+            out,
+            "<tr><td>{k}</td><td class=\"name\">{}</td>",
+            escaped(&row.name)
+        );
+        for &quantity in &quantities {
+            match numbers::number(row, quantity) {
+                Some(n) => {
+                    let (p999, max) = (brief(n.error.p999), brief(n.error.max));
+                    let _ = write!(out, "<td>{p999}</td><td>{max}</td>");
+                }
+                None => out += "<td></td><td></td>",
+            }
+        }
+        let _ = writeln!(out, "<td>{}</td></tr>", numbers::apart(row));
     }
     out + "</table>\n"
 }

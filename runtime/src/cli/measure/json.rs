@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use pullback_runtime::measure::{Judgement, Row, SEEN, Spread, Time};
+use pullback_runtime::bench::Ratio;
+use pullback_runtime::measure::{Again, Check, Judgement, Number, Row, SEEN, Spread, Time};
 use serde::Serialize;
 
 use super::Findings;
@@ -21,6 +22,7 @@ struct Json<'a> {
     unseen_flip: f64,
     choices: Vec<JsonRow<'a>>,
     advice: JsonAdvice,
+    second_run: JsonAgain<'a>,
 }
 
 #[derive(Serialize)]
@@ -36,6 +38,7 @@ struct JsonRow<'a> {
     name: &'a str,
     seconds: Option<JsonTime>,
     error: Option<JsonError>,
+    numbers: Vec<JsonNumber>,
     on_front: bool,
     note: Option<&'a str>,
 }
@@ -61,6 +64,39 @@ struct JsonSpread {
     mean: f64,
     p999: f64,
     max: f64,
+}
+
+#[derive(Serialize)]
+struct JsonNumber {
+    quantity: &'static str,
+    unit: &'static str,
+    error: JsonSpread,
+    apart: f64,
+    pixels: usize,
+}
+
+#[derive(Serialize)]
+struct JsonAgain<'a> {
+    elsewhere: bool,
+    holds: Option<bool>,
+    checks: Vec<JsonCheck>,
+    note: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct JsonCheck {
+    choice: usize,
+    error: Option<JsonError>,
+    allowed_flip: Option<f64>,
+    error_holds: Option<bool>,
+    times: Option<[JsonRatio; 2]>,
+    time_holds: Option<bool>,
+}
+
+#[derive(Serialize)]
+struct JsonRatio {
+    value: f64,
+    range: Option<[f64; 2]>,
 }
 
 #[derive(Serialize)]
@@ -97,6 +133,7 @@ fn object<'a>(findings: &Findings<'a>) -> Json<'a> {
             unseen: report.advice.unseen,
             half_the_time: report.advice.half,
         },
+        second_run: again(&report.again),
     }
 }
 
@@ -105,8 +142,44 @@ fn row(row: &Row) -> JsonRow<'_> {
         name: &row.name,
         seconds: row.time.map(time),
         error: row.error.map(error),
+        numbers: row.numbers.iter().map(number).collect(),
         on_front: row.on_front,
         note: row.note.as_deref(),
+    }
+}
+
+fn number(number: &Number) -> JsonNumber {
+    JsonNumber {
+        quantity: number.quantity.name(),
+        unit: number.quantity.unit(),
+        error: spread(number.error),
+        apart: number.apart,
+        pixels: number.pixels,
+    }
+}
+
+fn again(again: &Again) -> JsonAgain<'_> {
+    let is_known = again.checks.iter().any(|c| c.error_holds.is_some());
+    JsonAgain {
+        elsewhere: again.elsewhere,
+        holds: is_known.then(|| again.checks.iter().all(Check::holds)),
+        checks: again.checks.iter().map(check).collect(),
+        note: again.note.as_deref(),
+    }
+}
+
+fn check(check: &Check) -> JsonCheck {
+    let ratio = |ratio: Ratio| JsonRatio {
+        value: ratio.value,
+        range: Some(ratio.range).filter(|range| range[1].is_finite()),
+    };
+    JsonCheck {
+        choice: check.choice,
+        error: check.error.map(error),
+        allowed_flip: Some(check.allowed).filter(|x| x.is_finite()),
+        error_holds: check.error_holds,
+        times: check.times.map(|times| times.map(ratio)),
+        time_holds: check.time_holds,
     }
 }
 
@@ -121,14 +194,17 @@ fn time(time: Time) -> JsonTime {
 }
 
 fn error(judgement: Judgement) -> JsonError {
-    let spread = |spread: Spread| JsonSpread {
-        mean: spread.mean,
-        p999: spread.p999,
-        max: spread.max,
-    };
     JsonError {
         light: spread(judgement.light),
         flip: spread(judgement.seen),
         flip_standard_error: Some(judgement.doubt).filter(|x| x.is_finite()),
+    }
+}
+
+fn spread(spread: Spread) -> JsonSpread {
+    JsonSpread {
+        mean: spread.mean,
+        p999: spread.p999,
+        max: spread.max,
     }
 }

@@ -12,14 +12,14 @@ use crate::cli::failure::Failure;
 use crate::cli::render::name;
 
 /// The table, as it grows: on the standard output, and in a file if there is one.
-pub(super) struct Table {
+pub(in crate::cli) struct Table {
     text: String,
     file: Option<PathBuf>,
 }
 
 impl Table {
     /// With the lines that the file has, if it was begun with the same head.
-    pub(super) fn open(head: String, file: Option<&Path>) -> Result<Self, Failure> {
+    pub(in crate::cli) fn open(head: String, file: Option<&Path>) -> Result<Self, Failure> {
         let mut text = head;
         if let Some(path) = file {
             match std::fs::read_to_string(path) {
@@ -46,14 +46,19 @@ impl Table {
         })
     }
 
-    /// Whether it has the line of a program.
-    pub(super) fn has(&self, input: &OsStr) -> bool {
-        let first = format!("| {} |", label(input));
+    /// Whether it has the line of a program with this label.
+    pub(in crate::cli) fn has(&self, label: &str) -> bool {
+        let first = format!("| {label} |");
         self.text.lines().any(|line| line.starts_with(&first))
     }
 
+    /// All of it.
+    pub(in crate::cli) fn text(&self) -> &str {
+        &self.text
+    }
+
     /// Adds a line.
-    pub(super) fn add(&mut self, row: &str) -> Result<(), Failure> {
+    pub(in crate::cli) fn add(&mut self, row: &str) -> Result<(), Failure> {
         self.text += row;
         print(row).map_err(Failure::stdout)?;
         let Some(path) = &self.file else {
@@ -73,7 +78,7 @@ fn print(text: &str) -> io::Result<()> {
 }
 
 /// What a line calls a program: a file by its name without folder and ending, a formula by its text.
-fn label(input: &OsStr) -> String {
+pub(super) fn label(input: &OsStr) -> String {
     let path = Path::new(input);
     let is_file = path.extension().is_some_and(|ending| ending == "pull") || path.exists();
     let shown = if is_file { path.file_stem() } else { None };
@@ -82,7 +87,7 @@ fn label(input: &OsStr) -> String {
 }
 
 /// The head of the table.
-pub(super) fn head(adapter: &str, size: Size) -> String {
+pub(in crate::cli) fn head(adapter: &str, size: Size) -> String {
     format!(
         "{adapter}\n\n{}x{} pixels in linear light; times of the choices are relative to the default's\n\n\
          | picture | default, ms | its error | not to be told from the truth | time | error | at most half the time | time | error |\n\
@@ -92,7 +97,7 @@ pub(super) fn head(adapter: &str, size: Size) -> String {
 }
 
 /// The line of one picture.
-pub(super) fn row(input: &OsStr, report: &Report) -> String {
+pub(super) fn row(label: &str, report: &Report) -> String {
     let time = |k: usize| {
         report
             .rows
@@ -122,7 +127,7 @@ pub(super) fn row(input: &OsStr, report: &Report) -> String {
     };
     format!(
         "| {} | {} | {} | {} | {} |\n",
-        label(input),
+        label,
         number(time(0).map(|seconds| 1e3 * seconds)),
         number(error(0)),
         choice(report.advice.unseen),

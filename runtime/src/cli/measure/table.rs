@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use pullback_runtime::measure::{Row, SEEN, Time};
 
-use super::Findings;
+use super::{Findings, numbers};
 
 /// Writes a table and what follows from it to the standard output.
 pub(super) fn tell(findings: &Findings) -> io::Result<()> {
@@ -13,12 +13,7 @@ pub(super) fn tell(findings: &Findings) -> io::Result<()> {
         writeln!(out, "{line}")?;
     }
     let rows = &findings.report.rows;
-    let width = rows
-        .iter()
-        .map(|row| row.name.chars().count())
-        .max()
-        .unwrap_or(0)
-        .max(6);
+    let width = width(rows);
     writeln!(
         out,
         "\n    {:<width$}  {:>9} {:>13}  {:>8} {:>7}  {:>8} {:>8} {:>7}",
@@ -30,14 +25,30 @@ pub(super) fn tell(findings: &Findings) -> io::Result<()> {
             out,
             "{number:>2} {mark}{:<width$}  {}",
             row.name,
-            numbers(row)
+            measured(row)
         )?;
     }
     writeln!(out, "\n* nothing else is as fast and as accurate")?;
     for sentence in sentences(findings) {
         writeln!(out, "{sentence}")?;
     }
+    for sentence in numbers::second_run(findings.report) {
+        writeln!(out, "{sentence}")?;
+    }
+    let caption = numbers::caption(findings.report);
+    if !caption.is_empty() {
+        writeln!(out)?;
+    }
+    for line in caption.into_iter().chain(numbers::lines(rows)) {
+        writeln!(out, "{line}")?;
+    }
     out.flush()
+}
+
+/// Characters of the longest name of a choice.
+pub(super) fn width(rows: &[Row]) -> usize {
+    let lengths = rows.iter().map(|row| row.name.chars().count());
+    lengths.max().unwrap_or(0).max(6)
 }
 
 /// What was measured and against what, a sentence a line.
@@ -83,7 +94,7 @@ pub(super) fn head(findings: &Findings) -> Vec<String> {
     lines
 }
 
-fn numbers(row: &Row) -> String {
+fn measured(row: &Row) -> String {
     let time = row
         .time
         .map_or_else(|| format!("{:>9} {:>13}", "-", ""), |t| times(&t));
@@ -153,6 +164,10 @@ pub(super) fn sentences(findings: &Findings) -> Vec<String> {
             "For a picture that cannot be told from the truth, take: {}{}.",
             name(k),
             against(k)
+        ),
+        None if !report.is_enough() => format!(
+            "The truth is known at {} pixels, too few to say what cannot be told from it: give more --budget.",
+            report.pixels[0]
         ),
         None => format!(
             "No choice gives a picture that cannot be told from the truth (99.9 % of its pixels below a FLIP of {SEEN})."
