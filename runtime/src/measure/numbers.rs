@@ -155,8 +155,8 @@ fn value_error(truth: &Field, found: &Field) -> Option<f64> {
     relative(&truth.value, &found.value, truth.rate)
 }
 
-/// The error of the gradient, relative to it, or, where that is more, to the slope by which the value would change by itself
-/// over the height of the view.
+/// The error of the gradient, relative to it, or, where that is more, to the slope by which the value would change by
+/// itself over the height of the view.
 fn gradient_error(truth: &Field, found: &Field, height: f64) -> Option<f64> {
     let floor = if height > 0.0 {
         length(&truth.value) / height

@@ -7,8 +7,8 @@ use crate::trace::{Kept, What};
 pub enum Quantity {
     /// Of the formula, relative to it, or, where that is more, to its change over a pixel.
     Value,
-    /// Of the formula, relative to it, or, where that is more, to the slope by which the value would change by itself over the
-    /// height of the view; of a function of a complex variable both Wirtinger derivatives.
+    /// Of the formula, relative to it, or, where that is more, to the slope by which the value would change by itself
+    /// over the height of the view; of a function of a complex variable both Wirtinger derivatives.
     Gradient,
     /// Of lines, in pixels: the error of the value over its change from pixel to pixel.
     Position,

@@ -32,8 +32,8 @@ pub(super) struct Referee<'j> {
 }
 
 impl<'j> Referee<'j> {
-    /// The true numbers at as many parts of the picture as are done in half of the time that there is, one at least; nothing where the scene
-    /// has none that are judged by themselves.
+    /// The true numbers at as many parts of the picture as are done in half of the time that there is, one at least;
+    /// nothing where the scene has none that are judged by themselves.
     pub(super) fn new(
         job: &'j Job<'j>,
         truth: &Truth,

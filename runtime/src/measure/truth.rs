@@ -26,25 +26,29 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// Sides of parts, from the usual ones to one group of lanes.
 const SIDES: [u32; 2] = [32, 16];
 const SMALLEST: u32 = 8;
+/// How many times as long as there is a first part may take before it is made smaller.
+const HOPELESS: f64 = 4.0;
+/// Seconds of a group below which it is tried with more samples.
+const SHORT: f64 = 0.02;
 /// Parts that are tried for how long they take.
 const TRIED: usize = 3;
 /// Parts that the truth should have, even if it then has fewer samples.
 const WANTED: usize = 16;
 
-/// What computes the truth, with as many samples as leave time for enough parts: twice as many along each axis as any choice
-/// has, or at least one more.
+/// What computes the truth, with as many samples as leave time for enough parts: twice as many along each axis as any
+/// choice has, or at least one more.
 /// The parts are smaller where even one of them with the least samples would take too long.
 fn affordable(job: &Job, all: &mut [Window], deadline: Instant) -> Result<(Maker, u32), Error> {
     let most = job.choices.iter().map(|c| c.samples).max().unwrap_or(1);
     let [least, wanted] = [most + 1, 2 * most].map(|n| n.clamp(2, MAX_SAMPLES));
     let mut maker = Maker::new(job, STEPS[0], 1)?;
-    let slowest = slowest_pixel(job, &maker, all, deadline)?;
+    let each = mean_pixel(job, &mut maker, all, deadline)?;
     let cores = available_parallelism().map_or(1, usize::from);
     let left = deadline
         .saturating_duration_since(Instant::now())
         .as_secs_f64();
-    let shot = slowest * f64::from(least * least);
-    let is_short = |side: &u32| shot * f64::from(side * side) <= left;
+    let shot = each * f64::from(least * least);
+    let is_short = |side: &u32| shot * f64::from(side * side) <= HOPELESS * left;
     let side = SIDES.into_iter().find(is_short).unwrap_or(SMALLEST);
     for window in all.iter_mut() {
         *window = middle(*window, side);
@@ -54,12 +58,14 @@ fn affordable(job: &Job, all: &mut [Window], deadline: Instant) -> Result<(Maker
         .take(WANTED)
         .map(|w| w.size.width * w.size.height)
         .sum();
-    let one = slowest * f64::from(pixels) / cores as f64;
+    let one = each * f64::from(pixels) / cores as f64;
     let fits = |n: &u32| one * f64::from(n * n) <= left;
     let enough = (least..=wanted.max(least)).rev().find(fits);
     // what takes minutes has a truth of few samples, which says how far off it is itself
-    let group = slowest * f64::from(SMALLEST * SMALLEST);
-    let some = (2..=least).rev().find(|n| group * f64::from(n * n) <= left);
+    let group = each * f64::from(SMALLEST * SMALLEST);
+    let some = (2..=least)
+        .rev()
+        .find(|n| group * f64::from(n * n) <= HOPELESS * left);
     let samples = enough.or(some).unwrap_or(2);
     maker.samples = samples;
     Ok((maker, samples))
@@ -82,11 +88,11 @@ fn middle(part: Window, side: u32) -> Window {
     }
 }
 
-/// Seconds of a pixel of one sample, from one group of lanes each in the middle of the picture and of its first parts: the
-/// greatest, as some parts of a picture are empty.
-fn slowest_pixel(
+/// Seconds of a pixel of one sample, the mean of one group of lanes each in the middle of the picture and of its first
+/// parts, as some parts of a picture are empty.
+fn mean_pixel(
     job: &Job,
-    maker: &Maker,
+    maker: &mut Maker,
     all: &[Window],
     deadline: Instant,
 ) -> Result<f64, Error> {
@@ -95,18 +101,23 @@ fn slowest_pixel(
         y: 0,
         size: job.frame.size,
     };
-    let mut slowest: f64 = 0.0;
+    let mut tried = Vec::new();
     for part in [whole].iter().chain(all.iter().take(TRIED)) {
         let group = middle(*part, SMALLEST);
-        let start = Instant::now();
-        maker.made(job, &[group], deadline, true)?;
         let pixels = f64::from(group.size.width * group.size.height);
-        slowest = slowest.max(start.elapsed().as_secs_f64() / pixels);
+        maker.samples = 1;
+        let mut seconds = maker.seconds(job, group, deadline)?;
+        if seconds < SHORT {
+            // what it takes to begin is no part of a pixel
+            maker.samples = 4;
+            seconds = maker.seconds(job, group, deadline)? / 16.0;
+        }
+        tried.push(seconds / pixels);
         if Instant::now() > deadline {
             break;
         }
     }
-    Ok(slowest)
+    Ok(tried.iter().sum::<f64>() / tried.len() as f64)
 }
 
 /// The true picture at some of its parts.
@@ -242,6 +253,13 @@ impl Maker {
             settings,
             samples,
         })
+    }
+
+    /// Seconds that a part takes.
+    fn seconds(&self, job: &Job, part: Window, deadline: Instant) -> Result<f64, Error> {
+        let start = Instant::now();
+        self.made(job, &[part], deadline, true)?;
+        Ok(start.elapsed().as_secs_f64())
     }
 
     /// Some parts, or nothing where that takes until after the deadline, unless it `must`.
