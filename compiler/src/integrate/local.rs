@@ -52,7 +52,13 @@ impl Integrator<'_> {
         if !self.moves(root) {
             return root;
         }
-        let Some(found) = self.locals_of(root) else {
+        // a polynomial of degree 1 alone is its value in the middle: rests would be most of what is emitted
+        let found = if self.degree(root) == Some(1) {
+            None
+        } else {
+            self.locals_of(root)
+        };
+        let Some(found) = found else {
             return self.mean(root, count);
         };
         let locals: Vec<Local> = found
