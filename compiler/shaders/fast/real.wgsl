@@ -27,16 +27,6 @@ fn real_hypot(x: f32, y: f32) -> f32 {
     return real_hypot3(x, y, 0.0);
 }
 
-/// x/r for r = hypot(x, y), and 0 at the origin. All directions of one r share a reciprocal.
-fn real_direction(x: f32, y: f32, r: f32) -> f32 {
-    return select(x * (1.0 / r), 0.0, r < 1.2e-38);
-}
-
-/// x/r for r = √(x² + y² + z²), and 0 at the origin.
-fn real_direction3(x: f32, y: f32, z: f32, r: f32) -> f32 {
-    return select(x * (1.0 / r), 0.0, r < 1.2e-38);
-}
-
 /// -1, 0 or 1.
 fn real_sign(x: f32) -> f32 {
     return sign(x);

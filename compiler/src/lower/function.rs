@@ -1,11 +1,14 @@
 //! Lowering an expression graph to a naga function.
 
+use std::borrow::Cow;
+
 use naga::{BinaryOperator, Expression, Function, GlobalVariable, Handle, MathFunction, Type};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::body::Body;
 use super::lattice::Cells;
+use super::plain::plain;
 use super::scaled::powers_in_products;
 use super::{Format, LowerError, NagaTypes, NumberTypes, Precision};
 use crate::ir::{
@@ -121,6 +124,14 @@ pub fn lower(
         Precision::Extended | Precision::Double => NO_CALLS,
     };
     let (graph, roots) = expand_powers(&graph, &roots, &calls);
+    let plain = match interface.precision {
+        Precision::Fast => plain(&graph, &roots),
+        _ => None,
+    };
+    let (graph, roots) = match plain {
+        Some((graph, roots)) => (Cow::Owned(graph), roots),
+        None => (graph, roots),
+    };
     let graph = graph.as_ref();
     let types = NagaTypes::insert(&mut linker.out.types);
     let format = interface.precision.format();
@@ -208,6 +219,11 @@ impl Lowering<'_, '_, '_> {
                 self.values[id.index()] = Some(value);
             }
         }
+    }
+
+    /// Whether a result depends on a node.
+    pub(super) fn is_live(&self, id: Id) -> bool {
+        self.live[id.index()]
     }
 
     fn schedule(&mut self, roots: &[Id]) -> Result<(), LowerError> {

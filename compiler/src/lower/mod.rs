@@ -10,6 +10,7 @@ mod identifier;
 mod lattice;
 mod leaves;
 mod numbers;
+mod plain;
 mod repeat;
 mod scaled;
 mod tier;

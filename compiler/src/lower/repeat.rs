@@ -6,15 +6,36 @@ use rustc_hash::FxHashSet;
 
 use super::LowerError;
 use super::function::Lowering;
-use crate::ir::{Id, Op, Plan, Schedule, Ty};
+use crate::ir::{Id, Op, Plan, Prim, Schedule, Ty};
+
+/// A whole number that grows by one in each step, which is counted in the place of the steps.
+#[derive(Clone, Copy)]
+struct Numbered {
+    /// The node that has it.
+    id: Id,
+    /// Its value in the first step.
+    first: f32,
+    /// Its value behind the last step.
+    end: f32,
+}
+
+/// With no more than 100,000 steps behind it, such a number is exact in single precision.
+const MOST_FIRST: f64 = 1e6;
 
 impl Lowering<'_, '_, '_> {
     /// Writes a loop: its states are variables, read at the begin of each step and written at its end.
     pub(super) fn repeat(&mut self, schedule: &Schedule, plan: &Plan) -> Result<(), LowerError> {
         let it = &plan.it;
-        let count = self.count(plan)?;
-        let done = self.body.variable("steps".to_owned(), self.types.real);
-        let zero = self.body.literal(0.0);
+        let numbered = self.numbered(plan);
+        let (count, start, name) = match numbered {
+            Some(Numbered { id, first, end }) => {
+                let name = self.graph.name(id).map(super::identifier);
+                (self.body.literal(end), self.body.literal(first), name)
+            }
+            None => (self.count(plan)?, self.body.literal(0.0), None),
+        };
+        let name = name.unwrap_or_else(|| "steps".to_owned());
+        let done = self.body.variable(name, self.types.real);
         let mut variables = Vec::new();
         for state in &it.states {
             let ty = match self.graph.ty(state.leaf) {
@@ -28,7 +49,7 @@ impl Lowering<'_, '_, '_> {
             variables.push(variable);
         }
         // last before the loop, so that the text can have it in the loop's head
-        self.body.store(done, zero);
+        self.body.store(done, start);
 
         self.body.open();
         let now = self.body.load(done);
@@ -36,7 +57,11 @@ impl Lowering<'_, '_, '_> {
         let goes_on = self.binary(BinaryOperator::Less, now, count);
         let ends = self.unary(UnaryOperator::LogicalNot, goes_on);
         self.leave_if(ends);
-        if let Some(counter) = plan.counter {
+        if let Some(Numbered { id, .. }) = numbered {
+            // the variable has its name
+            self.values[id.index()] = Some(self.widened(now)?);
+            self.depths[id.index()] = 0;
+        } else if let Some(counter) = plan.counter {
             let steps = self.widened(now)?;
             self.keep(counter, steps);
         }
@@ -74,6 +99,30 @@ impl Lowering<'_, '_, '_> {
         self.forget(plan);
         self.results(plan, &variables);
         Ok(())
+    }
+
+    /// What the steps of the loop are numbered by, where its number of steps is known and they are used in no other way.
+    fn numbered(&self, plan: &Plan) -> Option<Numbered> {
+        let counter = plan.counter?;
+        let is_user = |&id: &Id| self.is_live(id) && self.graph.node(id).args.contains(&counter);
+        let mut users = self.graph.ids().filter(is_user);
+        let (id, None) = (users.next()?, users.next()) else {
+            return None;
+        };
+        let node = self.graph.node(id);
+        let (Op::Apply(Prim::Add), &[a, b]) = (node.op, &*node.args) else {
+            return None;
+        };
+        let first = self.graph.as_real(if a == counter { b } else { a })?;
+        let count = self.graph.as_real(plan.it.count)?;
+        let count = count.floor().clamp(0.0, f64::from(plan.it.limit));
+        let is_exact = first.fract() == 0.0 && first.abs() < MOST_FIRST && node.ty == Ty::Real;
+        #[allow(clippy::cast_possible_truncation, reason = "integers below 2²⁴")]
+        is_exact.then_some(Numbered {
+            id,
+            first: first as f32,
+            end: (first + count) as f32,
+        })
     }
 
     /// The number of steps: rounded down, at most the limit; NaN stays NaN, which no number is less than.

@@ -200,6 +200,14 @@ struct Quantity {
 }
 
 impl Table {
+    /// The table without the rows that have a note.
+    #[must_use]
+    pub fn without(mut self, note: &str) -> Self {
+        self.rows
+            .retain(|row| !row.last().is_some_and(|notes| notes.contains(note)));
+        self
+    }
+
     fn place(&self, name: &str) -> Option<usize> {
         self.columns.iter().position(|c| *c == name)
     }

@@ -1,6 +1,7 @@
 //! What is emitted: valid in every shading language, with the user's names, and only what is asked for.
 
 mod bytes;
+mod chromium;
 mod demand;
 mod languages;
 mod names;

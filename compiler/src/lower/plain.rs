@@ -1,0 +1,190 @@
+//! Arithmetic as a person writes it, for the tier `fast`: constant factors gathered, lengths from sums of squares.
+//!
+//! Each rule is an equation of real numbers, and none of them holds bit for bit: where the results round, overflow or
+//! underflow may differ. Other tiers have bounds to keep, and do without.
+
+use smallvec::SmallVec;
+
+use crate::ir::{Graph, Id, Node, Op, Prim, Ty, transcribe};
+
+/// How deep in a product a constant factor is looked for.
+const DEPTH: u8 = 8;
+/// Below it a length counts as 0, where there is no direction.
+const NO_LENGTH: f64 = 1.2e-38;
+/// What a length without overflow counts, in operations.
+const CAREFUL: usize = 20;
+
+/// The same values in fewer operations, or nothing where there are no fewer.
+pub(super) fn plain(graph: &Graph, roots: &[Id]) -> Option<(Graph, Vec<Id>)> {
+    let mut out = Graph::new();
+    let new = transcribe(graph, roots, &mut out, |out, node, args| {
+        rewritten(out, node, args).unwrap_or_else(|| out.intern(node.op, node.ty, args))
+    });
+    (operations(&out, &new) < operations(graph, roots)).then_some((out, new))
+}
+
+fn operations(graph: &Graph, roots: &[Id]) -> usize {
+    let live = graph.reachable(roots);
+    let of = |id: Id| match graph.node(id).op {
+        Op::Apply(Prim::Hypot | Prim::Hypot3 | Prim::Direction | Prim::Direction3) => CAREFUL,
+        Op::Apply(_) => 1,
+        _ => 0,
+    };
+    graph.ids().filter(|id| live[id.index()]).map(of).sum()
+}
+
+fn rewritten(g: &mut Graph, node: &Node, args: &[Id]) -> Option<Id> {
+    let Op::Apply(prim) = node.op else {
+        return None;
+    };
+    if node.ty != Ty::Real || args.iter().any(|&a| g.ty(a) == Ty::Complex) {
+        return None;
+    }
+    match (prim, args) {
+        (Prim::Neg, &[x]) => absorbed(g, x, -1.0, DEPTH),
+        (Prim::Mul, &[x, y]) => product(g, x, y),
+        // x/2 = x·0.5
+        (Prim::Div, &[x, y]) => {
+            let inverse = 1.0 / g.as_real(y)?;
+            is_short(inverse).then(|| scaled(g, inverse, x))
+        }
+        (Prim::Add | Prim::Sub, &[x, y]) => common_factor(g, prim, x, y),
+        (Prim::Hypot | Prim::Hypot3, parts) => {
+            let squares: SmallVec<[Id; 3]> = parts.iter().map(|&x| g.mul(x, x)).collect();
+            let sum = squares
+                .into_iter()
+                .reduce(|sum, square| g.add(sum, square))?;
+            Some(g.apply(Prim::Sqrt, &[sum]))
+        }
+        // x/r, and 0 where r is
+        (Prim::Direction | Prim::Direction3, &[x, .., r]) => {
+            let least = g.real(NO_LENGTH);
+            let r = g.apply(Prim::Max, &[r, least]);
+            Some(g.div(x, r))
+        }
+        (Prim::Select, &[_, between, there]) => middle(g, between, there),
+        _ => None,
+    }
+}
+
+/// Whether a constant is as short in single precision as its factors were.
+fn is_short(value: f64) -> bool {
+    #[allow(clippy::cast_possible_truncation, reason = "this is asked here")]
+    let single = value as f32;
+    value.is_normal() && f64::from(single).to_bits() == value.to_bits()
+}
+
+/// c x, with c in a constant factor of x where there is one.
+fn scaled(g: &mut Graph, c: f64, x: Id) -> Id {
+    absorbed(g, x, c, DEPTH).unwrap_or_else(|| times(g, c, x))
+}
+
+/// c x, without looking into x.
+fn times(g: &mut Graph, c: f64, x: Id) -> Id {
+    if c.to_bits() == 1.0_f64.to_bits() {
+        return x;
+    }
+    let c = g.real(c);
+    g.mul(c, x)
+}
+
+/// The operands of a real operation.
+fn operands(g: &Graph, id: Id, prim: Prim) -> Option<[Id; 2]> {
+    let node = g.node(id);
+    match (
+        node.op == Op::Apply(prim) && node.ty == Ty::Real,
+        &*node.args,
+    ) {
+        (true, &[x, y]) => Some([x, y]),
+        _ => None,
+    }
+}
+
+/// A product as a constant factor and the rest: (c, y) of c y.
+fn constant_factor(g: &Graph, id: Id) -> Option<(f64, Id)> {
+    let [x, y] = operands(g, id, Prim::Mul)?;
+    match (g.as_real(x), g.as_real(y)) {
+        (Some(c), None) => Some((c, y)),
+        (None, Some(c)) => Some((c, x)),
+        _ => None,
+    }
+}
+
+/// c x by a change of a constant factor that x has already: c (d y) = (c d) y.
+fn absorbed(g: &mut Graph, x: Id, c: f64, depth: u8) -> Option<Id> {
+    if depth == 0 || g.ty(x) != Ty::Real {
+        return None;
+    }
+    if let Some((d, y)) = constant_factor(g, x) {
+        return is_short(c * d).then(|| times(g, c * d, y));
+    }
+    if let &Node {
+        op: Op::Apply(Prim::Neg),
+        ref args,
+        ..
+    } = g.node(x)
+    {
+        let inner = args[0];
+        return Some(scaled(g, -c, inner));
+    }
+    for prim in [Prim::Mul, Prim::Div] {
+        let Some([a, b]) = operands(g, x, prim) else {
+            continue;
+        };
+        if let (Prim::Div, Some(d)) = (prim, g.as_real(a)) {
+            // a reciprocal is shared as it is, and a second division would cost more than a product
+            if d.abs().to_bits() == 1.0_f64.to_bits() || !is_short(c * d) {
+                return None;
+            }
+            let top = g.real(c * d);
+            return Some(g.div(top, b));
+        }
+        if let Some(a) = absorbed(g, a, c, depth - 1) {
+            return Some(g.apply(prim, &[a, b]));
+        }
+        if prim == Prim::Mul {
+            let b = absorbed(g, b, c, depth - 1)?;
+            return Some(g.mul(a, b));
+        }
+    }
+    None
+}
+
+fn product(g: &mut Graph, x: Id, y: Id) -> Option<Id> {
+    for (x, y) in [(x, y), (y, x)] {
+        if let Some(c) = g.as_real(x) {
+            return absorbed(g, y, c, DEPTH);
+        }
+    }
+    // (x/2)·(2 y) = x y
+    let ((c, x), (d, y)) = (constant_factor(g, x)?, constant_factor(g, y)?);
+    ((c * d).to_bits() == 1.0_f64.to_bits()).then(|| g.mul(x, y))
+}
+
+/// c x + c y = c (x + y)
+fn common_factor(g: &mut Graph, prim: Prim, x: Id, y: Id) -> Option<Id> {
+    let ((c, x), (d, y)) = (constant_factor(g, x)?, constant_factor(g, y)?);
+    if c.to_bits() != d.to_bits() {
+        return None;
+    }
+    let inner = g.apply(prim, &[x, y]);
+    Some(scaled(g, c, inner))
+}
+
+/// Two forms of the middle of a line's stretch, of which one is chosen by what it rounds to:
+/// (o + a s)/2 + (o + b s)/2 = o + (a + b)/2 s. The second takes fewer operations.
+fn middle(g: &Graph, between: Id, there: Id) -> Option<Id> {
+    let fused = |id: Id| {
+        let node = g.node(id);
+        (node.op == Op::Apply(Prim::MulAdd)).then(|| [node.args[0], node.args[1], node.args[2]])
+    };
+    let [half, high, low] = fused(between)?;
+    let (other_half, low) = constant_factor(g, low)?;
+    let [[mean, s, o], [b, s1, o1], [a, s0, o0]] = [fused(there)?, fused(high)?, fused(low)?];
+    let (c, sum) = constant_factor(g, mean)?;
+    let of_ends = operands(g, sum, Prim::Add)?;
+    let is_half = |c: f64| c.to_bits() == 0.5_f64.to_bits();
+    let are_halves = is_half(g.as_real(half)?) && is_half(other_half) && is_half(c);
+    let is_same = [s0, s1] == [s, s] && [o0, o1] == [o, o] && of_ends == [a, b];
+    (are_halves && is_same).then_some(there)
+}
