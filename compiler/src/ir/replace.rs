@@ -95,7 +95,9 @@ impl Graph {
             self.set_name(new, &name);
         }
         // of a node that has not been built anew it is not known whether it ought to have been
-        let slopes = self.slopes(id).and_then(|s| s.mapped(|old| map.new(old)));
+        let slopes = self
+            .slopes(id)
+            .and_then(|s| s.mapped(|old| map.kept_or_new(old)));
         if let Some(slopes) = slopes {
             self.set_slopes(new, slopes);
         }
@@ -123,7 +125,7 @@ impl Replaced {
     }
 
     /// What stands in the place of a node, or the node where it is older than all that is replaced.
-    fn new(&self, id: Id) -> Option<Id> {
+    fn kept_or_new(&self, id: Id) -> Option<Id> {
         self.get(id).or((id < self.first).then_some(id))
     }
 

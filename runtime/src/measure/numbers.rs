@@ -232,7 +232,7 @@ mod tests {
     use super::super::readings::readings;
     use super::*;
 
-    fn of<'n>(numbers: &'n [Number], quantity: Quantity) -> &'n Number {
+    fn of(numbers: &[Number], quantity: Quantity) -> &Number {
         numbers.iter().find(|n| n.quantity == quantity).unwrap()
     }
 
