@@ -59,7 +59,7 @@ impl<'p, 'm> FunctionPrinter<'p, 'm> {
             variables: FxHashMap::default(),
             births: FxHashMap::default(),
             arguments: Vec::new(),
-            scope: printer.names.clone(),
+            scope: printer.names.inside(),
             plan,
             out: String::new(),
             level: 0,

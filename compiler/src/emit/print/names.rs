@@ -1,7 +1,9 @@
 //! Names that a language accepts, each once.
 
+use std::sync::{Arc, OnceLock};
+
 use naga::{BinaryOperator, Expression, Function, Handle, Literal, Module};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::dialect::Dialect;
 use super::plan::Plan;
@@ -10,46 +12,87 @@ use super::plan::Plan;
 /// language, HLSL, MSL and C, beside those of naga's list for WGSL.
 const FOREIGN: &str = include_str!("reserved.txt");
 
-/// Names that are taken.
-#[derive(Clone, Debug)]
+/// Names that are taken in a scope.
+#[derive(Debug)]
 pub(super) struct Names {
-    taken: FxHashSet<String>,
+    /// Words of the language, and names of helpers.
+    reserved: &'static FxHashSet<String>,
+    /// Of the scopes around this one.
+    around: Vec<Arc<FxHashSet<String>>>,
+    own: Arc<FxHashSet<String>>,
+    /// The number that was last put behind a name.
+    numbers: FxHashMap<String, u32>,
+}
+
+/// What no name may be.
+fn reserved(dialect: Dialect) -> &'static FxHashSet<String> {
+    static WGSL: OnceLock<FxHashSet<String>> = OnceLock::new();
+    static OTHERS: OnceLock<FxHashSet<String>> = OnceLock::new();
+    let helpers = || super::helpers::NAMES.iter().map(|w| (*w).to_owned());
+    if dialect == Dialect::Wgsl {
+        return WGSL.get_or_init(|| {
+            let words = naga::keywords::wgsl::RESERVED.iter();
+            let built_in = naga::keywords::wgsl::BUILTIN_IDENTIFIERS.iter();
+            // short names of types, which a module may define anew, and which we write
+            let types = (2..=4)
+                .flat_map(|size| ["f", "i", "u", "h"].map(|kind| format!("vec{size}{kind}")));
+            let words = words.chain(built_in).map(|w| (*w).to_owned());
+            words.chain(types).chain(helpers()).collect()
+        });
+    }
+    OTHERS.get_or_init(|| {
+        let lines = FOREIGN.lines().filter(|l| !l.starts_with('#'));
+        let words = lines.flat_map(str::split_whitespace).map(str::to_owned);
+        words.chain(helpers()).collect()
+    })
 }
 
 impl Names {
     pub(super) fn new(dialect: Dialect) -> Self {
-        let mut taken: FxHashSet<String> = FxHashSet::default();
-        let wgsl = naga::keywords::wgsl::RESERVED.iter();
-        let built_in = naga::keywords::wgsl::BUILTIN_IDENTIFIERS.iter();
-        if dialect == Dialect::Wgsl {
-            taken.extend(wgsl.chain(built_in).map(|w| (*w).to_owned()));
-            // short names of types, which a module may define anew, and which we write
-            for size in 2..=4 {
-                taken.extend(["f", "i", "u", "h"].map(|kind| format!("vec{size}{kind}")));
-            }
-        } else {
-            let words = FOREIGN.lines().filter(|l| !l.starts_with('#'));
-            taken.extend(words.flat_map(str::split_whitespace).map(str::to_owned));
+        Self {
+            reserved: reserved(dialect),
+            around: Vec::new(),
+            own: Arc::default(),
+            numbers: FxHashMap::default(),
         }
-        taken.extend(super::helpers::NAMES.iter().map(|w| (*w).to_owned()));
-        Self { taken }
+    }
+
+    /// A scope within this one.
+    pub(super) fn inside(&self) -> Self {
+        let mut around = self.around.clone();
+        around.push(Arc::clone(&self.own));
+        Self {
+            reserved: self.reserved,
+            around,
+            own: Arc::default(),
+            numbers: FxHashMap::default(),
+        }
+    }
+
+    fn is_taken(&self, name: &str) -> bool {
+        let around = || self.around.iter().any(|scope| scope.contains(name));
+        self.reserved.contains(name) || self.own.contains(name) || around()
     }
 
     /// A free name that is or begins with the one that is wanted.
     pub(super) fn fresh(&mut self, wanted: &str) -> String {
         let base = clean(wanted);
         let mut name = base.clone();
-        let mut number = 2;
-        while self.taken.contains(&name) {
+        if self.is_taken(&name) {
             let gap = if base.ends_with(|c: char| c.is_ascii_digit()) {
                 "_"
             } else {
                 ""
             };
+            let mut number = self.numbers.get(&base).map_or(2, |last| last + 1);
             name = format!("{base}{gap}{number}");
-            number += 1;
+            while self.is_taken(&name) {
+                number += 1;
+                name = format!("{base}{gap}{number}");
+            }
+            self.numbers.insert(base, number);
         }
-        self.taken.insert(name.clone());
+        Arc::make_mut(&mut self.own).insert(name.clone());
         name
     }
 }
