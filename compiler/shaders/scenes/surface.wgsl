@@ -137,72 +137,62 @@ const INK: vec3f = vec3f(0.012, 0.014, 0.02);
 
 // ---- Finding the surface -------------------------------------------------------------------------------------
 
-// f - level on the ray; nothing else of it counts where it is not valid.
 struct Sample {
-    t: f32,
+    k: f32,
     value: f32,
     slope: f32,
-    valid: bool,
 }
 
+struct Search {
+    state: u32,
+    rounds: u32,
+    k: f32,
+    low: Sample,
+    high: Sample,
+    size: f32,
+    weight: f32,
+}
+
+const SEARCH_TOUCHED: u32 = 6u;
+const SEARCH_EDGED: u32 = 7u;
+
+fn is_searching(search: Search) -> bool { return false; }
+fn has_met(search: Search) -> bool { return false; }
+fn sample_of(k: f32, value: f32, level: f32) -> Sample { return Sample(); }
+fn opposite(a: Sample, b: Sample) -> bool { return false; }
+fn no_search() -> Search { return Search(); }
+fn search_edge(valid: Sample, bad: f32) -> Search { return Search(); }
+fn search_turn(k: f32, low: f32, high: f32, size: f32) -> Search { return Search(); }
+fn search_root(a: Sample, b: Sample, size: f32) -> Search { return Search(); }
+fn search_on(search: Search, jet: vec2f, level: f32, count: f32) -> Search { return Search(); }
+
 struct Hit {
-    t: f32,
+    k: f32,          // where, in steps of the path
     found: bool,
     touching: bool,  // the ray touches the level without crossing it
 }
 
 const NO_HIT: Hit = Hit(0.0, false, false);
 
-// The part of a ray inside of the box, from its entry on, so that f32 resolves it wherever the ray begins.
+// The part of a ray inside of the box, from its entry on, so that f32 resolves it wherever the ray begins: origin + k stride
+// for k from 0 to count.
 struct Path {
-    ray: Ray,
-    extent: f32,  // none where the ray misses the box
-    count: f32,   // steps of a march
+    origin: vec3f,
+    stride: vec3f,
+    count: f32,  // of steps; 0 where the ray misses the box
 }
 
 // `span` is from `box_span`; `steps` are for the diagonal of the box.
 fn path_within(ray: Ray, span: vec2f, steps: u32) -> Path {
     let enter = max(span.x, 0.0);
     let extent = span.y - enter;
-    return Path(Ray(ray.origin + enter * ray.direction, ray.direction), extent, step_count(extent, steps));
+    let count = step_count(extent, steps);
+    return Path(ray.origin + enter * ray.direction, extent / count * ray.direction, select(0.0, count, extent > 0.0));
 }
 
-fn sample_ray(ray: Ray, t: f32) -> Sample {
-    let raw = field_ray(ray.origin, ray.direction, t);
-    let value = clamp(raw.x - settings.level, -LARGEST, LARGEST);
-    let slope = select(clamp(raw.y, -LARGEST, LARGEST), 0.0, is_nan(raw.y));
-    return Sample(t, value, slope, !is_nan(raw.x));
-}
-
-fn opposite(a: Sample, b: Sample) -> bool {
-    return (a.value < 0.0) != (b.value < 0.0);
-}
-
-// What a search within a step looks for: where f ceases to be defined, which side of a sample the extremum is on, slopes at
-// the ends of its step, the extremum, a root.
-const EDGE: u32 = 0u;
-const TURN: u32 = 1u;
-const ENDS: u32 = 2u;
-const DIP: u32 = 3u;
-const CROSSING: u32 = 4u;
-// It has ended, without a hit or with one.
-const NOTHING: u32 = 5u;
-const FOUND: u32 = 6u;
-
-// A search between two samples: of the last valid one and a bad place; of the neighbours of one that is near to the level; of
-// two around an extremum; of two around a root.
-struct Search {
-    mode: u32,
-    count: u32,        // samples that it has taken
-    t: f32,            // where the next one is wanted; of a hit, where that is
-    low: Sample,       // a bad place, or a sample on the near side
-    high: Sample,      // a sample on the far side
-    third: Sample,     // the valid end of the step, or the sample nearest to the level
-    low_weight: f32,   // of the Illinois method
-    high_weight: f32,
-    size: f32,         // greatest |f - level| before a search for an extremum or a root
-    first: f32,        // width of the first bracket of a root
-    touching: bool,    // of a hit
+fn step_count(extent: f32, steps: u32) -> f32 {
+    let diagonal = 2.0 * length(settings.box);
+    return clamp(ceil(extent / max(diagonal, 1e-20) * f32(steps)), 2.0, max(f32(steps), 2.0));
 }
 
 // The end of what has been walked over, where f is |f - level| of the side that the ray is on.
@@ -215,36 +205,29 @@ struct Walk {
 
 // The first hit on a path. The inner loop only walks, by values alone, to where f changes its sign or, near the level,
 // comes no nearer, so that rays side by side walk together to where each has something to search, and then search together,
-// with slopes. Drivers copy a function to where it is called, and f may be long: each is called in one place.
+// with slopes.
 fn march(path: Path) -> Hit {
-    if !(path.extent > 0.0) {
-        return NO_HIT;
-    }
-    let step = path.extent / path.count;
-    let stride = step * path.ray.direction;
     var walk: Walk;
-    while walk.k <= path.count {
+    while path.count > 0.0 && walk.k <= path.count {
         var value: f32;
         loop {
-            value = field(path.ray.origin + walk.k * stride) - settings.level;
+            value = field(path.origin + walk.k * path.stride) - settings.level;
             let ahead = walk.side * value;
-            if !(ahead > 0.0) | (walk.k >= path.count) {
+            if !(ahead > 0.0) | (walk.k >= path.count) | turns(walk, ahead) {
                 break;
-            }
-            // seldom true, and so not computed together with the rest
-            if ahead >= walk.value {
-                if turns(walk, ahead) {
-                    break;
-                }
             }
             walk = Walk(walk.k + 1.0, walk.side, ahead, walk.value);
         }
-        var search = search_step(walk, value, step, walk.k >= path.count);
-        while search.mode < NOTHING {
-            search = searched(search, sample_ray(path.ray, search.t));
+        var search = search_step(walk, value, path.count);
+        while is_searching(search) {
+            let jet = field_ray(path.origin, path.stride, search.k);
+            search = search_on(search, jet, settings.level, path.count);
+            if search.state == SEARCH_EDGED {
+                search = search_before_edge(search.low, walk, value);
+            }
         }
-        if search.mode == FOUND {
-            return Hit(search.t, true, search.touching);
+        if has_met(search) {
+            return Hit(search.k, true, search.state == SEARCH_TOUCHED);
         }
         walk = walk_on(walk, value);
     }
@@ -254,11 +237,7 @@ fn march(path: Path) -> Hit {
 // Whether f comes no nearer to the level after the last sample, and from there is no farther from it than from one of its
 // neighbours. An extremum between them may then be beyond the level: a parabola goes an eighth as far.
 fn turns(walk: Walk, ahead: f32) -> bool {
-    return ahead >= walk.value && walk.value <= walk.older && is_close(walk, ahead);
-}
-
-fn is_close(walk: Walk, ahead: f32) -> bool {
-    return walk.value <= max(ahead, walk.older) - walk.value;
+    return walk.value <= min(min(ahead, walk.older), 0.5 * max(ahead, walk.older));
 }
 
 // A walk over a sample in whose step nothing has been found.
@@ -270,242 +249,52 @@ fn walk_on(walk: Walk, value: f32) -> Walk {
     return Walk(walk.k + 1.0, side, abs(value), select(abs(value), walk.value, side == walk.side));
 }
 
+// The sample where a walk ended.
+fn last_of(walk: Walk) -> Sample {
+    return sample_of(walk.k - 1.0, walk.side * walk.value, 0.0);
+}
+
 // What is to be searched where a walk ends.
-fn search_step(walk: Walk, value: f32, step: f32, last: bool) -> Search {
-    let t = walk.k * step;
-    let far = Sample(t, clamp(value, -LARGEST, LARGEST), 0.0, !is_nan(value));
-    let near = Sample(t - step, clamp(walk.side * walk.value, -LARGEST, LARGEST), 0.0, walk.side != 0.0);
-    if walk.k == 0.0 || !(near.valid || far.valid) {
-        return nothing(Search());
+fn search_step(walk: Walk, value: f32, count: f32) -> Search {
+    let near = last_of(walk);
+    let far = sample_of(walk.k, value, 0.0);
+    let is_valid = !is_nan(value);
+    if walk.k == 0.0 || (walk.side == 0.0 && !is_valid) {
+        return no_search();
     }
-    if !near.valid {
-        return edge_place(Search(EDGE, 0u, 0.0, near, far, far, 1.0, 1.0, 0.0, 0.0, false));
+    if walk.side == 0.0 {
+        return search_edge(far, near.k);
     }
-    if !far.valid {
-        return edge_place(Search(EDGE, 0u, 0.0, far, near, near, 1.0, 1.0, 0.0, 0.0, false));
+    if !is_valid {
+        return search_edge(near, far.k);
     }
     if opposite(near, far) {
-        return search_crossing(near, far, 0.0);
+        return search_root(near, far, 0.0);
     }
     let ahead = walk.side * value;
     if turns(walk, ahead) {
-        return search_turn(near, max(near.t - step, 0.0), t);
+        return search_turn(near.k, max(near.k - 1.0, 0.0), far.k, 0.0);
     }
-    if last && ahead <= walk.value - ahead {
-        return search_turn(far, near.t, t);
+    if walk.k >= count && ahead <= walk.value - ahead {
+        return search_turn(far.k, near.k, far.k, 0.0);
     }
-    return nothing(Search());
+    return no_search();
 }
 
-// On which side of a sample |f - level| is least, between two places.
-fn search_turn(middle: Sample, low: f32, high: f32) -> Search {
-    var search = Search(TURN, 0u, middle.t, middle, middle, middle, 1.0, 1.0, 0.0, 0.0, false);
-    search.low.t = low;
-    search.high.t = high;
-    return search;
-}
-
-// A search with the sample that it wanted.
-fn searched(search: Search, found: Sample) -> Search {
-    switch search.mode {
-        case EDGE: { return searched_edge(search, found); }
-        case TURN: { return searched_turn(search, found); }
-        case ENDS: { return searched_end(search, found); }
-        case DIP: { return searched_dip(search, found); }
-        default: { return searched_crossing(search, found); }
-    }
-}
-
-// The end of a search without a hit.
-fn nothing(search: Search) -> Search {
-    var next = search;
-    next.mode = NOTHING;
-    return next;
-}
-
-// Where f ceases to be defined between a bad place (low) and a valid sample (high), by bisection from the valid side.
-fn edge_place(search: Search) -> Search {
-    var next = search;
-    next.t = 0.5 * (search.high.t + search.low.t);
-    return next;
-}
-
-fn searched_edge(search: Search, found: Sample) -> Search {
-    var next = search;
-    if found.valid {
-        next.high = found;
-    } else {
-        next.low = found;
-    }
-    next.count++;
-    if next.count < 12u {
-        return edge_place(next);
-    }
-    if opposite(next.third, next.high) {
-        if next.third.t > next.high.t {
-            return search_crossing(next.high, next.third, 0.0);
+// Between the valid end of a step and the edge of where f is defined.
+fn search_before_edge(edge: Sample, walk: Walk, value: f32) -> Search {
+    if walk.side != 0.0 {
+        let near = last_of(walk);
+        if opposite(near, edge) {
+            return search_root(near, edge, 0.0);
         }
-        return search_crossing(next.third, next.high, 0.0);
+        return no_search();
     }
-    return nothing(next);
-}
-
-// From a sample that is near to the level to the other end of the step that has the extremum, if there is one.
-fn searched_turn(search: Search, found: Sample) -> Search {
-    var next = search;
-    let nearer_ahead = (found.value < 0.0) == (found.slope > 0.0);
-    next.mode = ENDS;
-    next.t = select(search.low.t, search.high.t, nearer_ahead);
-    next.low = found;
-    next.high = found;
-    if !found.valid || next.t == found.t {
-        return nothing(next);
+    let far = sample_of(walk.k, value, 0.0);
+    if opposite(edge, far) {
+        return search_root(edge, far, 0.0);
     }
-    return next;
-}
-
-fn searched_end(search: Search, found: Sample) -> Search {
-    var next = search;
-    if found.t < search.low.t {
-        next.low = found;
-    } else {
-        next.high = found;
-    }
-    if !may_dip(next.low, next.high) {
-        return nothing(next);
-    }
-    next.mode = DIP;
-    next.size = max(abs(next.low.value), abs(next.high.value));
-    next.third = next.low;
-    if abs(next.high.value) < abs(next.low.value) {
-        next.third = next.high;
-    }
-    return dip_place(next);
-}
-
-// Whether a step whose ends have the same sign may hold two crossings: both slopes lead towards the level, and the
-// two tangents meet beyond it or within a tenth before it. For a convex |f| the tangents are a bound.
-fn may_dip(a: Sample, b: Sample) -> bool {
-    let side = select(1.0, -1.0, a.value < 0.0);
-    let fall = -side * a.slope;
-    let rise = side * b.slope;
-    if fall <= 0.0 || rise <= 0.0 {
-        return false;
-    }
-    let va = abs(a.value);
-    let vb = abs(b.value);
-    // Value where the tangents meet, times fall + rise; kept in range by dividing by the larger slope.
-    let top = max(fall, rise);
-    let f = fall / top;
-    let r = rise / top;
-    let met = vb * f + va * r - f * rise * (b.t - a.t);
-    return met <= 0.1 * max(va, vb) * (f + r);
-}
-
-// Looks for the extremum between two samples of the same sign by regula falsi on the slope (Illinois: Dowell and
-// Jarratt 1971), until a sample lies beyond the level or the tangents show that none can.
-fn dip_place(search: Search) -> Search {
-    let down = search.low_weight * abs(search.low.slope);
-    let up = search.high_weight * abs(search.high.slope);
-    let part = clamp(down / max(down + up, 1e-37), 0.02, 0.98);
-    var next = search;
-    next.t = mix(search.low.t, search.high.t, part);
-    return next;
-}
-
-fn searched_dip(search: Search, found: Sample) -> Search {
-    if !found.valid {
-        return nothing(search);
-    }
-    if opposite(search.low, found) {
-        return search_crossing(search.low, found, search.size);
-    }
-    var next = search;
-    if abs(found.value) <= abs(next.third.value) {
-        next.third = found;
-    }
-    if (found.slope < 0.0) == (search.low.slope < 0.0) {
-        next.low = found;
-        next.low_weight = 1.0;
-        next.high_weight *= 0.5;
-    } else {
-        next.high = found;
-        next.high_weight = 1.0;
-        next.low_weight *= 0.5;
-    }
-    next.count++;
-    if next.count < 10u && may_dip(next.low, next.high) {
-        return dip_place(next);
-    }
-    // Even roots: the extremum equals the level to rounding.
-    if abs(next.third.value) <= 3e-7 * search.size {
-        next.mode = FOUND;
-        next.t = next.third.t;
-        next.touching = true;
-        return next;
-    }
-    return nothing(next);
-}
-
-// Root between two samples of opposite sign, by Newton's method within the bracket of their signs, and bisection where that
-// is slow. A sign change over which |f| does not shrink with the bracket is a pole or a jump and not found. `larger` is a
-// value of |f - level| beside them.
-fn search_crossing(a: Sample, b: Sample, larger: f32) -> Search {
-    let size = max(larger, max(abs(a.value), abs(b.value)));
-    let t = mix(a.t, b.t, clamp(a.value / (a.value - b.value), 0.001, 0.999));
-    return Search(CROSSING, 0u, t, a, b, a, 1.0, 1.0, size, b.t - a.t, false);
-}
-
-fn searched_crossing(search: Search, found: Sample) -> Search {
-    if !found.valid {
-        return nothing(search);
-    }
-    var next = search;
-    let on_near_side = !opposite(search.low, found);
-    if on_near_side {
-        next.low = found;
-    } else {
-        next.high = found;
-    }
-    next.count++;
-    let before = search.high.t - search.low.t;
-    let width = next.high.t - next.low.t;
-    let place = found.t - found.value / select(found.slope, 1e-37, found.slope == 0.0);
-    let inside = (place >= next.low.t) & (place <= next.high.t);
-    let shrinks = abs(found.value) < 0.25 * search.size;
-    // so near that what is left is the square of a small part of the first bracket
-    if shrinks & inside & (abs(place - found.t) <= 0.001 * search.first) {
-        next.mode = FOUND;
-        next.t = place;
-        return next;
-    }
-    let tolerance = 2.4e-7 * max(abs(next.low.t), abs(next.high.t)) + 1e-30;
-    if next.count >= 48u || width <= 2.0 * tolerance {
-        return crossing_end(next);
-    }
-    let least = min(abs(search.low.value), abs(search.high.value));
-    let fast = (width <= 0.5 * before) | (abs(found.value) <= 0.25 * least);
-    // a little further, so that the bracket closes
-    let beyond = place + select(-tolerance, tolerance, on_near_side);
-    let within = (beyond > next.low.t) & (beyond < next.high.t);
-    next.t = select(0.5 * (next.low.t + next.high.t), beyond, fast & within);
-    return next;
-}
-
-// The end that is nearer to the level, unless that is a pole or a jump.
-fn crossing_end(search: Search) -> Search {
-    var next = search;
-    let low = abs(search.low.value);
-    let high = abs(search.high.value);
-    let after = select(max(low, high), 0.0, min(low, high) == 0.0);
-    next.mode = select(NOTHING, FOUND, after < 0.25 * search.size);
-    next.t = select(search.high.t, search.low.t, low <= high);
-    return next;
-}
-
-fn step_count(extent: f32, steps: u32) -> f32 {
-    let diagonal = 2.0 * length(settings.box);
-    return clamp(ceil(extent / max(diagonal, 1e-20) * f32(steps)), 2.0, max(f32(steps), 2.0));
+    return no_search();
 }
 
 // ---- Light ---------------------------------------------------------------------------------------------------
@@ -537,9 +326,7 @@ struct Spot {
 // Where a hit's surface is looked at. Where the ray only touches the level the gradient vanishes; just before, it has the
 // right direction.
 fn spot_point(path: Path, hit: Hit) -> vec3f {
-    let step = path.extent / path.count;
-    let t = hit.t - select(0.0, 0.02 * step, hit.touching);
-    return path.ray.origin + t * path.ray.direction;
+    return path.origin + (hit.k - select(0.0, 0.02, hit.touching)) * path.stride;
 }
 
 fn spot_at(jet: vec4f, direction: vec3f, touching: bool) -> Spot {

@@ -87,46 +87,55 @@ fn seen_shells(before: Seen, sight: Sight, part: vec2f, half_size: vec3f, steps:
     let d = sight.ray.direction;
     let origin = sight.ray.origin + part.x * d;
     let extent = part.y - part.x;
-    let way = steps_over(extent, u32(ceil(extent / (2.0 * length(half_size)) * f32(steps))));
-    let stride = way.step * d;
+    let count = f32(max(u32(ceil(extent / (2.0 * length(half_size)) * f32(steps))), 1u));
+    let stride = extent / count * d;
     var walk: Walk;
     var seen = before;
     // One place evaluates the gradient: first at the bound in front, then where a level is met, at last at the bound behind.
     for (var k = view.zero; k < MOST_LAYERS && seen.through > THINNEST_SHELL; k++) {
-        var met: Search;
-        while k > 0u && walk.k <= way.count && met.state != SEARCH_MET {
+        var aim: Aim;
+        var met = false;
+        while k > 0u && walk.k <= count && !met {
             var value: f32;
             loop {
                 value = field(origin + walk.k * stride);
-                if !walks_over(walk, value, way) {
+                if !walks_over(walk, value, count) {
                     break;
                 }
                 walk = walk_on(walk, value);
             }
-            for (var stage = view.zero; stage < 2u && met.state != SEARCH_MET; stage++) {
-                met = search_part(stage, walk, value, way, shells.family);
-                while search_is_on(met) {
-                    met = search_on(met, field_ray(origin, d, met.t), way, shells.family);
+            for (var stage = view.zero; stage < 2u && !met; stage++) {
+                aim = aim_at(stage, walk, value, count, shells.family);
+                while is_searching(aim.search) {
+                    let goal = goal_of(aim, walk);
+                    aim.search = search_on(aim.search, field_ray(origin, stride, aim.search.k), goal, count);
+                    if stage > 0u && has_rest(aim.search) {
+                        let stopped = walk;
+                        walk = walk_to_rest(stopped, aim.search, goal, shells.family);
+                        aim = aim_at_rest(stopped, walk, value, aim.search, shells.family);
+                    }
                 }
+                met = has_met(aim.search);
             }
-            if met.state == SEARCH_MET {
-                walk = walk_behind(walk, met, way, shells.family);
-            } else {
+            if !met {
                 walk = walk_from(walk, value, shells.family);
             }
         }
-        let last = k > 0u && met.state != SEARCH_MET;
-        let t = select(select(met.t, extent, last), 0.0, k == 0u);
-        let jet = field_grad(origin + t * d);
-        if k > 0u && !last {
-            seen = seen_behind(seen, shell_layer(met.level, met.touching, jet.xyz, d, shells));
+        let last = k > 0u && !met;
+        let place = select(select(aim.search.k, count, last), 0.0, k == 0u);
+        let jet = field_grad(origin + place * stride);
+        if met {
+            let level = select(walk.band - 1, walk.band, aim.upper);
+            let touching = aim.search.state == SEARCH_TOUCHED;
+            seen = seen_behind(seen, shell_layer(level, touching, jet.xyz, d, shells));
+            walk = walk_behind(walk, aim.search, aim.upper, shells.family);
             continue;
         }
         seen = seen_bound(seen, jet, select(part.x, part.y, last), last, sight, shells, pixel);
         if last {
             break;
         }
-        walk = walk_begun(jet.w, dot(jet.xyz, d), shells.family);
+        walk = walk_begun(jet.w, dot(jet.xyz, d) > 0.0, shells.family);
     }
     return seen;
 }

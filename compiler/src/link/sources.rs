@@ -86,6 +86,7 @@ const SHARED: &str = concat!(
     include_str!("../../shaders/shared/values.wgsl"),
     include_str!("../../shaders/shared/layers.wgsl"),
     include_str!("../../shaders/shared/space.wgsl"),
+    include_str!("../../shaders/shared/search.wgsl"),
     include_str!("../../shaders/shared/march.wgsl"),
     include_str!("../../shaders/shared/shells.wgsl"),
     include_str!("../../shaders/shared/medium.wgsl"),
