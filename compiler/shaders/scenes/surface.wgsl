@@ -123,7 +123,6 @@ fn light_toward(camera: Camera, yaw: f32, pitch: f32, origin: u32) -> vec3f { re
 fn lit_colour(colour: vec3f, n: vec3f, v: vec3f, open: f32, lamp: Lamp) -> vec3f { return vec3f(); }
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f { return vec2f(); }
 fn box_normal(p: vec3f, center: vec3f, half_size: vec3f) -> vec3f { return vec3f(); }
-fn layer_over(front: Layer, back: Layer) -> Layer { return Layer(); }
 fn layer_on(under: vec4f, layer: Layer) -> vec4f { return vec4f(); }
 fn edge_layer(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32, behind: bool) -> Layer { return Layer(); }
 fn sky_at(direction: vec3f, background: vec3f) -> vec3f { return vec3f(); }
@@ -195,28 +194,27 @@ fn step_count(extent: f32, steps: u32) -> f32 {
     return clamp(ceil(extent / max(diagonal, 1e-20) * f32(steps)), 2.0, max(f32(steps), 2.0));
 }
 
-// The end of what has been walked over, where f is |f - level| of the side that the ray is on.
+// The end of what has been walked over.
 struct Walk {
     k: f32,       // number of the next sample
-    side: f32,    // 1 or -1; 0 where f is undefined, or nothing has been walked over
-    value: f32,   // f at the last sample
-    older: f32,   // and at the one before it
+    value: f32,   // f - level at the last one
+    limit: f32,   // where |f - level| is not less at the next one, an extremum may be beyond the level; -1: nothing is known
+    below: bool,  // whether f is below the level
 }
 
 // The first hit on a path. The inner loop only walks, by values alone, to where f changes its sign or, near the level,
 // comes no nearer, so that rays side by side walk together to where each has something to search, and then search together,
-// with slopes.
+// with slopes. Most of a frame are its steps: they take few operations.
 fn march(path: Path) -> Hit {
-    var walk: Walk;
+    var walk = Walk(0.0, 0.0, -1.0, false);
     while path.count > 0.0 && walk.k <= path.count {
         var value: f32;
         loop {
             value = field(path.origin + walk.k * path.stride) - settings.level;
-            let ahead = walk.side * value;
-            if !(ahead > 0.0) | (walk.k >= path.count) | turns(walk, ahead) {
+            if !(((value < 0.0) == walk.below) & (abs(value) < walk.limit) & (walk.k < path.count)) {
                 break;
             }
-            walk = Walk(walk.k + 1.0, walk.side, ahead, walk.value);
+            walk = walk_on(walk, value);
         }
         var search = search_step(walk, value, path.count);
         while is_searching(search) {
@@ -229,29 +227,43 @@ fn march(path: Path) -> Hit {
         if has_met(search) {
             return Hit(search.k, true, search.state == SEARCH_TOUCHED);
         }
-        walk = walk_on(walk, value);
+        walk = walk_from(walk, value);
     }
     return NO_HIT;
 }
 
-// Whether f comes no nearer to the level after the last sample, and from there is no farther from it than from one of its
-// neighbours. An extremum between them may then be beyond the level: a parabola goes an eighth as far.
-fn turns(walk: Walk, ahead: f32) -> bool {
-    return walk.value <= min(min(ahead, walk.older), 0.5 * max(ahead, walk.older));
+// Over a sample on the same side. Let u, v, w be |f - level| at the one before, there and at the next one: v is an extremum
+// where it is more than neither of the others, and then may be beyond the level between the samples where it is not more
+// than their second difference u - 2 v + w. A parabola goes beyond v by an eighth of that at most.
+fn walk_on(walk: Walk, value: f32) -> Walk {
+    return Walk(walk.k + 1.0, value, max(abs(value), 3.0 * abs(value) - abs(walk.value)), walk.below);
 }
 
-// A walk over a sample in whose step nothing has been found.
-fn walk_on(walk: Walk, value: f32) -> Walk {
+// Whether what a walk has come to, `value`, is where its last sample is such an extremum.
+fn turns(walk: Walk, value: f32) -> bool {
+    return abs(value) >= walk.limit && walk.limit <= 2.0 * abs(walk.value);
+}
+
+// Over a sample in whose step nothing has been found.
+fn walk_from(walk: Walk, value: f32) -> Walk {
+    let below = value < 0.0;
     if is_nan(value) {
-        return Walk(walk.k + 1.0, 0.0, 0.0, 0.0);
+        return Walk(walk.k + 1.0, 0.0, -1.0, false);
     }
-    let side = select(1.0, -1.0, value < 0.0);
-    return Walk(walk.k + 1.0, side, abs(value), select(abs(value), walk.value, side == walk.side));
+    if is_lost(walk) || below != walk.below {
+        return Walk(walk.k + 1.0, value, 2.0 * abs(value), below);
+    }
+    return walk_on(walk, value);
+}
+
+// Whether f is undefined where a walk is, or it has not begun.
+fn is_lost(walk: Walk) -> bool {
+    return walk.limit < 0.0;
 }
 
 // The sample where a walk ended.
 fn last_of(walk: Walk) -> Sample {
-    return sample_of(walk.k - 1.0, walk.side * walk.value, 0.0);
+    return sample_of(walk.k - 1.0, walk.value, 0.0);
 }
 
 // What is to be searched where a walk ends.
@@ -259,10 +271,10 @@ fn search_step(walk: Walk, value: f32, count: f32) -> Search {
     let near = last_of(walk);
     let far = sample_of(walk.k, value, 0.0);
     let is_valid = !is_nan(value);
-    if walk.k == 0.0 || (walk.side == 0.0 && !is_valid) {
+    if walk.k == 0.0 || (is_lost(walk) && !is_valid) {
         return no_search();
     }
-    if walk.side == 0.0 {
+    if is_lost(walk) {
         return search_edge(far, near.k);
     }
     if !is_valid {
@@ -271,11 +283,10 @@ fn search_step(walk: Walk, value: f32, count: f32) -> Search {
     if opposite(near, far) {
         return search_root(near, far, 0.0);
     }
-    let ahead = walk.side * value;
-    if turns(walk, ahead) {
+    if turns(walk, value) {
         return search_turn(near.k, max(near.k - 1.0, 0.0), far.k, 0.0);
     }
-    if walk.k >= count && ahead <= walk.value - ahead {
+    if walk.k >= count && 2.0 * abs(value) <= abs(walk.value) {
         return search_turn(far.k, near.k, far.k, 0.0);
     }
     return no_search();
@@ -283,7 +294,7 @@ fn search_step(walk: Walk, value: f32, count: f32) -> Search {
 
 // Between the valid end of a step and the edge of where f is defined.
 fn search_before_edge(edge: Sample, walk: Walk, value: f32) -> Search {
-    if walk.side != 0.0 {
+    if !is_lost(walk) {
         let near = last_of(walk);
         if opposite(near, edge) {
             return search_root(near, edge, 0.0);
@@ -395,40 +406,27 @@ struct Face {
     p: vec3f,
     n: vec3f,
     t: f32,  // distance along the ray
-    drawn: bool,
-}
-
-// The far face that a ray meets (`behind`), or the near one. The far one is hidden by the surface.
-fn face_of(ray: Ray, span: vec2f, behind: bool, hidden: bool) -> Face {
-    let t = select(span.x, span.y, behind);
-    let p = ray.origin + t * ray.direction;
-    let drawn = span.y > max(span.x, 0.0) && t > 0.0 && !(behind && hidden);
-    return Face(p, box_normal(p, settings.center, settings.box), t, drawn);
 }
 
 // f on a face.
 struct Trace {
     value: f32,    // f - level
     flat: vec3f,   // gradient in the face
-    slope: f32,    // length of that; 0 where it is not known
-    rate: f32,     // change of value per pixel across the lines
+    rate: f32,     // change of value per pixel across the lines; not above 0 where that is not known
     line: f32,     // coverage by the line of the level, if it is one
 }
 
 fn trace_on(face: Face, value: f32, gradient: vec3f, sight: Sight) -> Trace {
     let flat = gradient - face.n * dot(gradient, face.n);
-    let slope = length3_safe(flat);
-    if !is_finite(slope) || slope <= 0.0 {
-        return Trace(value, flat, 0.0, 0.0, 0.0);
-    }
     let rate = screen_rate(sight, face.t, face.n, flat);
     let line = line_coverage(pixels_away(abs(value), rate), 2.0 * settings.isoline_width, sample_window());
-    return Trace(value, flat, slope, rate, line);
+    return Trace(value, flat, rate, select(0.0, line, rate > 0.0));
 }
 
 // Where one Newton step ends.
 fn newton_point(face: Face, trace: Trace) -> vec3f {
-    return face.p - trace.flat / trace.slope * (trace.value / trace.slope);
+    let slope = length3_safe(trace.flat);
+    return face.p - trace.flat / slope * (trace.value / slope);
 }
 
 // Tells a zero from a pole by f at the end of one Newton step: near a zero of order n that multiplies the value by
@@ -438,26 +436,24 @@ fn is_zero_there(jet: vec4f, value: f32) -> bool {
     return is_finite(next) && abs(next) <= 0.36787944 * abs(value) + 1e-6 * abs(settings.level);
 }
 
-// Lines and tint on a face. `behind` tells the walls behind from those in front, `crossed` whether the level's line is one.
-fn wall_on(trace: Trace, undefined: bool, crossed: bool, pixel: vec2f, behind: bool) -> Layer {
+// Lines and tint on a face, over what lies behind it. `behind` tells the walls behind from those in front, `crossed`
+// whether the level's line is one.
+fn wall_on(under: vec4f, trace: Trace, undefined: bool, crossed: bool, pixel: vec2f, behind: bool) -> vec4f {
     let window = sample_window();
     if undefined {
         let opacity = select(0.12, 0.30, behind);
-        return Layer(vec3f(0.45), opacity * hatch(pixel, 1.0, 7.0, 0.3, window));
+        return layer_on(under, Layer(vec3f(0.45), opacity * hatch(pixel, 1.0, 7.0, 0.3, window)));
     }
     let side = select(settings.outside, settings.inside, trace.value < 0.0);
-    var wall = Layer(vec3f(1.0), 0.0);
+    var wall = under;
     if behind {
-        wall = Layer(mix(side, vec3f(1.0), 0.5), 0.22);
-    }
-    if trace.slope <= 0.0 {
-        return wall;
-    }
-    if behind && settings.isoline_spacing > 0.0 {
-        wall = layer_over(Layer(mix(side, INK, 0.45), 0.5 * family_coverage(trace.value, trace.rate, window)), wall);
+        wall = layer_on(wall, Layer(mix(side, vec3f(1.0), 0.5), 0.22));
+        if settings.isoline_spacing > 0.0 && trace.rate > 0.0 {
+            wall = layer_on(wall, Layer(mix(side, INK, 0.45), 0.5 * family_coverage(trace.value, trace.rate, window)));
+        }
     }
     if crossed {
-        wall = layer_over(Layer(INK, trace.line * select(0.55, 0.85, behind)), wall);
+        wall = layer_on(wall, Layer(INK, trace.line * select(0.55, 0.85, behind)));
     }
     return wall;
 }
@@ -473,21 +469,34 @@ fn family_coverage(value: f32, rate: f32, window: f32) -> f32 {
         // Past 2²² spacings f32 no longer resolves the place between two lines.
         if abs(u) < 4194304.0 {
             let sparse = 1.0 - smoothstep(0.10, 0.28, lines);
-            covered = max(covered, sparse * line_train(u, lines * settings.isoline_width, lines * window));
+            covered = max(covered, sparse * isolines(u, lines, window));
         }
         spacing *= 5.0;
     }
     return covered;
 }
 
+// Coverage by lines at the integers of u, of which there are `lines` a pixel. Lines that are so thin that where they are
+// drawn no two of them share a pixel are told from the nearest one alone.
+fn isolines(u: f32, lines: f32, window: f32) -> f32 {
+    if (settings.isoline_width + window) * 0.28 < 1.0 {
+        return line_coverage(pixels_away(abs(u - floor(u + 0.5)), lines), settings.isoline_width, window);
+    }
+    return line_train(u, lines * settings.isoline_width, lines * window);
+}
+
 // The faces of the box that the ray meets, over what lies behind them. The far one is hidden by the surface.
 fn over_box(under: vec4f, sight: Sight, span: vec2f, hidden: bool, pixel: vec2f) -> vec4f {
     var colour = under;
+    if span.y <= max(span.x, 0.0) {
+        return colour;
+    }
     for (var k = view.zero; k < 2u; k++) {
         let behind = k == 0u;
-        let face = face_of(sight.ray, span, behind, hidden);
-        if face.drawn {
-            colour = over_wall(colour, face, sight, pixel, behind);
+        let t = select(span.x, span.y, behind);
+        if t > 0.0 && !(behind && hidden) {
+            let p = sight.ray.origin + t * sight.ray.direction;
+            colour = over_wall(colour, Face(p, box_normal(p, settings.center, settings.box), t), sight, pixel, behind);
         }
     }
     return colour;
@@ -514,9 +523,8 @@ fn over_wall(under: vec4f, face: Face, sight: Sight, pixel: vec2f, behind: bool)
         }
         p = newton_point(face, trace);
     }
-    let wall = wall_on(trace, undefined, crossed, pixel, behind);
-    let edge = edge_layer(sight, face.t, face.n, settings.center, settings.box, settings.edge_width, behind);
-    return layer_on(layer_on(under, Layer(wall.colour, wall.opacity * settings.wall_opacity)), edge);
+    let wall = mix(under, wall_on(under, trace, undefined, crossed, pixel, behind), settings.wall_opacity);
+    return layer_on(wall, edge_layer(sight, face.t, face.n, settings.center, settings.box, settings.edge_width, behind));
 }
 
 // ---- Ground and sky ------------------------------------------------------------------------------------------
@@ -595,5 +603,6 @@ fn shade(pixel: vec2f) -> vec4f {
         colour = sky_behind(ray.direction);
     }
     colour = over_box(colour, sight, span, hit.found, pixel);
-    return vec4f(clamp(colour.rgb, vec3f(0.0), vec3f(1.0)), colour.a);
+    // opaque where nothing else is asked for: then no alpha is computed
+    return vec4f(clamp(colour.rgb, vec3f(0.0), vec3f(1.0)), select(1.0, colour.a, settings.backdrop == 2u));
 }
