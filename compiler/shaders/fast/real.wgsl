@@ -8,16 +8,6 @@ fn is_moderate(squared: f32) -> bool {
     return bitcast<u32>(squared) - 0x0da24260u < 0x6f4e7b62u;
 }
 
-/// a + b - s where s is the sum: not looked for.
-fn real_sum_rest(a: f32, b: f32, s: f32) -> f32 {
-    return 0.0;
-}
-
-/// The same of a b + c.
-fn real_mul_add_rest(a: f32, b: f32, c: f32, s: f32) -> f32 {
-    return 0.0;
-}
-
 /// √(x² + y²), with care where a square leaves the range.
 fn real_hypot(x: f32, y: f32) -> f32 {
     let squared = x * x + y * y;
@@ -30,4 +20,14 @@ fn real_hypot(x: f32, y: f32) -> f32 {
 /// -1, 0 or 1.
 fn real_sign(x: f32) -> f32 {
     return sign(x);
+}
+
+/// sin x / x, 1 at 0; the series below a rounding error that would show.
+fn real_sinc(x: f32) -> f32 {
+    let a = abs(x);
+    if a < 0.78 {
+        let z = a * a;
+        return 1.0 + z * (-0.16666655 + z * (0.008332158 + z * -0.00019514958));
+    }
+    return sin(a) / a;
 }

@@ -123,11 +123,14 @@ struct Local {
 
 fn local_ray(ray: NearRay, copy: u32) -> Local {
     let place = f32(copy) - 0.5 * f32(settings.copies - 1u);
+    let p = ray.origin - settings.center - place * settings.step;
+    let d = ray.direction;
+    if settings.turn == 0.0 {
+        return Local(p, d);
+    }
     let angle = f32(copy) * settings.turn * 0.017453292519943295;
     let c = cos(angle);
     let s = sin(angle);
-    let p = ray.origin - settings.center - place * settings.step;
-    let d = ray.direction;
     return Local(
         vec3f(c * p.x + s * p.y, c * p.y - s * p.x, p.z),
         vec3f(c * d.x + s * d.y, c * d.y - s * d.x, d.z),

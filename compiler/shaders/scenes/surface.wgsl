@@ -163,7 +163,7 @@ fn no_search() -> Search { return Search(); }
 fn search_edge(valid: Sample, bad: f32) -> Search { return Search(); }
 fn search_turn(k: f32, low: f32, high: f32, size: f32) -> Search { return Search(); }
 fn search_root(a: Sample, b: Sample, size: f32) -> Search { return Search(); }
-fn search_on(search: Search, jet: vec2f, level: f32, count: f32) -> Search { return Search(); }
+fn search_on(search: Search, jet: vec2f, level: f32, count: f32, grain: f32) -> Search { return Search(); }
 
 struct Hit {
     k: f32,          // where, in steps of the path
@@ -185,8 +185,11 @@ struct Path {
 fn path_within(ray: Ray, span: vec2f, steps: u32) -> Path {
     let enter = max(span.x, 0.0);
     let extent = span.y - enter;
+    if !(extent > 0.0) {
+        return Path(ray.origin, ray.direction, 0.0);
+    }
     let count = step_count(extent, steps);
-    return Path(ray.origin + enter * ray.direction, extent / count * ray.direction, select(0.0, count, extent > 0.0));
+    return Path(ray.origin + enter * ray.direction, extent / count * ray.direction, count);
 }
 
 fn step_count(extent: f32, steps: u32) -> f32 {
@@ -198,16 +201,20 @@ fn step_count(extent: f32, steps: u32) -> f32 {
 struct Walk {
     k: f32,       // number of the next sample
     value: f32,   // f - level at the last one
-    limit: f32,   // where |f - level| is not less at the next one, an extremum may be beyond the level; -1: nothing is known
+    limit: f32,   // where |f - level| is not less at the next one, an extremum may be beyond the level; -1: f is undefined
     below: bool,  // whether f is below the level
 }
 
-// The first hit on a path. The inner loop only walks, by values alone, to where f changes its sign or, near the level,
+// The first hit on a path, to `grain` of a step or better. The inner loop only walks, by values alone, to where f changes its sign or, near the level,
 // comes no nearer, so that rays side by side walk together to where each has something to search, and then search together,
 // with slopes. Most of a frame are its steps: they take few operations.
-fn march(path: Path) -> Hit {
-    var walk = Walk(0.0, 0.0, -1.0, false);
-    while path.count > 0.0 && walk.k <= path.count {
+fn march(path: Path, grain: f32) -> Hit {
+    if !(path.count > 0.0) {
+        return NO_HIT;
+    }
+    // most functions are above the level at the border of the box
+    var walk = Walk(0.0, 0.0, LARGEST, false);
+    while walk.k <= path.count {
         var value: f32;
         loop {
             value = field(path.origin + walk.k * path.stride) - settings.level;
@@ -219,7 +226,7 @@ fn march(path: Path) -> Hit {
         var search = search_step(walk, value, path.count);
         while is_searching(search) {
             let jet = field_ray(path.origin, path.stride, search.k);
-            search = search_on(search, jet, settings.level, path.count);
+            search = search_on(search, jet, settings.level, path.count, grain);
             if search.state == SEARCH_EDGED {
                 search = search_before_edge(search.low, walk, value);
             }
@@ -250,13 +257,13 @@ fn walk_from(walk: Walk, value: f32) -> Walk {
     if is_nan(value) {
         return Walk(walk.k + 1.0, 0.0, -1.0, false);
     }
-    if is_lost(walk) || below != walk.below {
+    if is_lost(walk) || below != walk.below || walk.k == 0.0 {
         return Walk(walk.k + 1.0, value, 2.0 * abs(value), below);
     }
     return walk_on(walk, value);
 }
 
-// Whether f is undefined where a walk is, or it has not begun.
+// Whether f is undefined where a walk is.
 fn is_lost(walk: Walk) -> bool {
     return walk.limit < 0.0;
 }
@@ -320,11 +327,8 @@ fn lamp() -> Lamp {
 
 // First-order distance to the surface, world units: |f - level| / |∇f|; large where that is not known.
 fn distance_estimate(jet: vec4f) -> f32 {
-    let size = length3_safe(jet.xyz);
-    if is_nan(jet.w) || is_nan(jet.x + jet.y + jet.z) || size <= 0.0 {
-        return LARGEST;
-    }
-    return min(abs(jet.w - settings.level) / size, LARGEST);
+    let away = abs(jet.w - settings.level) / length3_safe(jet.xyz);
+    return select(LARGEST, away, away < LARGEST);
 }
 
 // The surface where a ray meets it.
@@ -380,7 +384,9 @@ fn look_at_base(base: vec3f, direction: vec3f, hit: Hit, on_ground: bool) -> Lig
             let jet = field_grad(p);
             if k == 0u {
                 light.jet = jet;
-                light.spot = spot_at(jet, direction, hit.touching);
+                if hit.found {
+                    light.spot = spot_at(jet, direction, hit.touching);
+                }
             } else {
                 light.closed += hidden_sky(jet, light.spot.side, k);
             }
@@ -576,23 +582,27 @@ fn shade(pixel: vec2f) -> vec4f {
     let ground_point = ray.origin + ground * ray.direction;
     // The eye's path, and then, where it ends on the ground, the light's. Drivers copy a function to where it is
     // called; the loop makes that one place.
-    let seen = path_within(ray, span, settings.steps);
-    var path = seen;
+    var path = path_within(ray, span, settings.steps);
+    var base = nearest_in_box(ground_point);
     var hit = NO_HIT;
     var shadowed = false;
     for (var leg = view.zero; leg < 2u; leg++) {
-        let found = march(path);
+        // for a shadow it is enough that there is a surface
+        let found = march(path, select(1e-4, 0.5, leg > 0u));
         if leg > 0u {
             shadowed = found.found;
             break;
         }
         hit = found;
-        if hit.found || ground <= 0.0 || !may_be_shadowed(ground_point) {
+        if hit.found {
+            base = spot_point(path, hit);
+            break;
+        }
+        if ground <= 0.0 || !may_be_shadowed(ground_point) {
             break;
         }
         path = shadow_path(ground_point);
     }
-    let base = select(nearest_in_box(ground_point), spot_point(seen, hit), hit.found);
     let light = look_at_base(base, ray.direction, hit, ground > 0.0);
     var colour: vec4f;
     if hit.found {

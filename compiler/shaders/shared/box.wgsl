@@ -3,8 +3,8 @@
 // Parameters at which a ray enters and leaves the box (x and y); x > y where it misses. The slab method (Kay and
 // Kajiya 1986); a direction component of 0 is replaced by a tiny one, so no 0 · ∞ arises.
 fn box_span(origin: vec3f, direction: vec3f, center: vec3f, half_size: vec3f) -> vec2f {
-    let tiny = select(vec3f(1e-12), vec3f(-1e-12), direction < vec3f(0.0));
-    let rate = 1.0 / select(direction, tiny, abs(direction) < vec3f(1e-12));
+    let size = max(abs(direction), vec3f(1e-12));
+    let rate = 1.0 / select(size, -size, direction < vec3f(0.0));
     let middle = (center - origin) * rate;
     let reach = abs(half_size * rate);
     let enter = middle - reach;

@@ -74,8 +74,8 @@ fn search_ended(before: Search, state: u32) -> Search {
     return search;
 }
 
-// Takes f and its slope at search.k, of a march of `count` steps.
-fn search_on(search: Search, jet: vec2f, level: f32, count: f32) -> Search {
+// Takes f and its slope at search.k, of a march of `count` steps. A level is met where Newton's step is no longer than `grain`.
+fn search_on(search: Search, jet: vec2f, level: f32, count: f32, grain: f32) -> Search {
     let found = sample_with_slope(search.k, jet, level);
     if search.state == SEARCH_EDGE {
         return searched_edge(search, found, !is_nan(jet.x));
@@ -87,7 +87,7 @@ fn search_on(search: Search, jet: vec2f, level: f32, count: f32) -> Search {
         case SEARCH_TURN: { return searched_turn(search, found); }
         case SEARCH_ENDS: { return searched_end(search, found); }
         case SEARCH_DIP: { return searched_dip(search, found); }
-        default: { return searched_root(search, found, count); }
+        default: { return searched_root(search, found, count, grain); }
     }
 }
 
@@ -233,7 +233,7 @@ fn newton_place(sample: Sample) -> f32 {
     return sample.k - sample.value / select(sample.slope, 1e-37, sample.slope == 0.0);
 }
 
-fn searched_root(before: Search, found: Sample, count: f32) -> Search {
+fn searched_root(before: Search, found: Sample, count: f32, grain: f32) -> Search {
     var search = before;
     let is_below = !opposite(before.low, found);
     if is_below {
@@ -247,8 +247,8 @@ fn searched_root(before: Search, found: Sample, count: f32) -> Search {
     let inside = (place >= search.low.k) & (place <= search.high.k);
     let shrinks = abs(found.value) < 0.25 * search.size;
     let leads = (found.slope != 0.0) & ((found.slope > 0.0) == (before.low.value < 0.0));
-    // so near that what is left is the square of a small part of a step
-    if shrinks & leads & inside & (abs(place - found.k) <= 1e-4) {
+    // what is left is about the square of that
+    if shrinks & leads & inside & (abs(place - found.k) <= grain) {
         search.k = place;
         search.state = SEARCH_CROSSED;
         return search;

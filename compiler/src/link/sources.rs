@@ -32,6 +32,7 @@ const MATH: &str = concat!(
 /// Functions of the tier `fast`, where it has others than these.
 const FAST: &str = concat!(
     include_str!("../../shaders/fast/real.wgsl"),
+    include_str!("../../shaders/fast/hash.wgsl"),
     include_str!("../../shaders/fast/complex.wgsl"),
 );
 

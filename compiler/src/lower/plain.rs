@@ -48,7 +48,12 @@ fn rewritten(g: &mut Graph, node: &Node, args: &[Id]) -> Option<Id> {
             let inverse = 1.0 / g.as_real(y)?;
             is_short(inverse).then(|| scaled(g, inverse, x))
         }
-        (Prim::Add | Prim::Sub, &[x, y]) => common_factor(g, prim, x, y),
+        (Prim::Add | Prim::Sub, &[x, y]) => {
+            without_zero(g, prim, x, y).or_else(|| common_factor(g, prim, x, y))
+        }
+        // rests of roundings are for those who keep bounds
+        (Prim::SumRest | Prim::MulAddRest, _) => Some(g.real(0.0)),
+        (Prim::MulAdd, &[x, y, z]) => shorter_sum(g, x, y, z),
         (Prim::Hypot | Prim::Hypot3, parts) => {
             let squares: SmallVec<[Id; 3]> = parts.iter().map(|&x| g.mul(x, x)).collect();
             let sum = squares
@@ -152,6 +157,11 @@ fn absorbed(g: &mut Graph, x: Id, c: f64, depth: u8) -> Option<Id> {
 
 fn product(g: &mut Graph, x: Id, y: Id) -> Option<Id> {
     for (x, y) in [(x, y), (y, x)] {
+        if g.as_real(x) == Some(0.0) && is_finite(g, y) {
+            return Some(g.real(0.0));
+        }
+    }
+    for (x, y) in [(x, y), (y, x)] {
         if let Some(c) = g.as_real(x) {
             return absorbed(g, y, c, DEPTH);
         }
@@ -159,6 +169,28 @@ fn product(g: &mut Graph, x: Id, y: Id) -> Option<Id> {
     // (x/2)·(2 y) = x y
     let ((c, x), (d, y)) = (constant_factor(g, x)?, constant_factor(g, y)?);
     ((c * d).to_bits() == 1.0_f64.to_bits()).then(|| g.mul(x, y))
+}
+
+/// Whether a value is a number that is given, and so no infinity or NaN.
+fn is_finite(g: &Graph, x: Id) -> bool {
+    !matches!(g.node(x).op, Op::Apply(_))
+}
+
+/// x y + z where one of them is 0.
+fn shorter_sum(g: &mut Graph, x: Id, y: Id, z: Id) -> Option<Id> {
+    if g.as_real(z) == Some(0.0) {
+        return product(g, x, y).or_else(|| Some(g.mul(x, y)));
+    }
+    let is_zero = |g: &Graph, x: Id| g.as_real(x) == Some(0.0);
+    (is_zero(g, x) || is_zero(g, y)).then_some(z)
+}
+
+/// x + 0, 0 + x and x - 0.
+fn without_zero(g: &Graph, prim: Prim, x: Id, y: Id) -> Option<Id> {
+    if g.as_real(y) == Some(0.0) {
+        return Some(x);
+    }
+    (prim == Prim::Add && g.as_real(x) == Some(0.0)).then_some(y)
 }
 
 /// c x + c y = c (x + y)
