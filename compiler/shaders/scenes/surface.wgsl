@@ -161,6 +161,7 @@ fn sample_of(k: f32, value: f32, level: f32) -> Sample { return Sample(); }
 fn opposite(a: Sample, b: Sample) -> bool { return false; }
 fn no_search() -> Search { return Search(); }
 fn search_edge(valid: Sample, bad: f32) -> Search { return Search(); }
+fn search_before_edge(ended: Search) -> Search { return Search(); }
 fn search_turn(k: f32, low: f32, high: f32, size: f32) -> Search { return Search(); }
 fn search_root(a: Sample, b: Sample, size: f32) -> Search { return Search(); }
 fn search_on(search: Search, jet: vec2f, level: f32, count: f32, grain: f32) -> Search { return Search(); }
@@ -224,31 +225,32 @@ fn march(path: Path, grain: f32) -> Hit {
             walk = walk_on(walk, value);
         }
         var search = search_step(walk, value, path.count);
+        walk = walk_from(walk, value);
         while is_searching(search) {
             let jet = field_ray(path.origin, path.stride, search.k);
             search = search_on(search, jet, settings.level, path.count, grain);
             if search.state == SEARCH_EDGED {
-                search = search_before_edge(search.low, walk, value);
+                search = search_before_edge(search);
             }
         }
         if has_met(search) {
             return Hit(search.k, true, search.state == SEARCH_TOUCHED);
         }
-        walk = walk_from(walk, value);
     }
     return NO_HIT;
 }
 
 // Over a sample on the same side. Let u, v, w be |f - level| at the one before, there and at the next one: v is an extremum
 // where it is more than neither of the others, and then may be beyond the level between the samples where it is not more
-// than their second difference u - 2 v + w. A parabola goes beyond v by an eighth of that at most.
+// than half of their second difference u - 2 v + w. Two straight lines go beyond v by that at most, a parabola by an
+// eighth of the difference.
 fn walk_on(walk: Walk, value: f32) -> Walk {
-    return Walk(walk.k + 1.0, value, max(abs(value), 3.0 * abs(value) - abs(walk.value)), walk.below);
+    return Walk(walk.k + 1.0, value, max(abs(value), 4.0 * abs(value) - abs(walk.value)), walk.below);
 }
 
 // Whether what a walk has come to, `value`, is where its last sample is such an extremum.
 fn turns(walk: Walk, value: f32) -> bool {
-    return abs(value) >= walk.limit && walk.limit <= 2.0 * abs(walk.value);
+    return abs(value) >= walk.limit && walk.limit <= 3.0 * abs(walk.value);
 }
 
 // Over a sample in whose step nothing has been found.
@@ -258,7 +260,7 @@ fn walk_from(walk: Walk, value: f32) -> Walk {
         return Walk(walk.k + 1.0, 0.0, -1.0, false);
     }
     if is_lost(walk) || below != walk.below || walk.k == 0.0 {
-        return Walk(walk.k + 1.0, value, 2.0 * abs(value), below);
+        return Walk(walk.k + 1.0, value, 3.0 * abs(value), below);
     }
     return walk_on(walk, value);
 }
@@ -293,24 +295,8 @@ fn search_step(walk: Walk, value: f32, count: f32) -> Search {
     if turns(walk, value) {
         return search_turn(near.k, max(near.k - 1.0, 0.0), far.k, 0.0);
     }
-    if walk.k >= count && 2.0 * abs(value) <= abs(walk.value) {
+    if walk.k >= count && 3.0 * abs(value) <= abs(walk.value) {
         return search_turn(far.k, near.k, far.k, 0.0);
-    }
-    return no_search();
-}
-
-// Between the valid end of a step and the edge of where f is defined.
-fn search_before_edge(edge: Sample, walk: Walk, value: f32) -> Search {
-    if !is_lost(walk) {
-        let near = last_of(walk);
-        if opposite(near, edge) {
-            return search_root(near, edge, 0.0);
-        }
-        return no_search();
-    }
-    let far = sample_of(walk.k, value, 0.0);
-    if opposite(edge, far) {
-        return search_root(edge, far, 0.0);
     }
     return no_search();
 }

@@ -94,7 +94,7 @@ fn fragment_main(@builtin(position) position: vec4f) -> @location(0) vec4f {
     return encoded_pixel(vec2u(position.xy));
 }
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(8, 16)
 fn compute_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
         return;
@@ -103,7 +103,7 @@ fn compute_main(@builtin(global_invocation_id) id: vec3u) {
 }
 
 // Four words a pixel: linear rgb, premultiplied, and alpha as they are, beyond 1 too.
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(8, 16)
 fn linear_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
         return;
@@ -113,7 +113,7 @@ fn linear_main(@builtin(global_invocation_id) id: vec3u) {
 
 // Pixels are four words apart. Behind the last one are three words: whether a sum has gone wrong, the first sample
 // that is to be added to each pixel, and the one after the last. Samples of a pixel are numbered row by row.
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(8, 16)
 fn sum_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
         return;
@@ -132,7 +132,7 @@ fn sum_main(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(8, 16)
 fn encode_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
         return;

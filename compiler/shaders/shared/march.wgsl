@@ -52,11 +52,11 @@ fn walks_over(walk: Walk, value: f32, count: f32) -> bool {
 }
 
 // Whether f, which comes nearer to a level up to the end of what has been searched and moves away from it after that, may
-// reach it in between. Beyond the nearest of three samples it goes no farther than from there to one of the others, unless it
-// turns more often: a parabola goes an eighth of that.
+// reach it in between. Beyond the nearest of three samples it goes no farther than half the way from there to one of the others,
+// unless it turns more often: that is what two straight lines do, and a parabola goes an eighth of the way.
 fn may_turn(walk: Walk, value: f32) -> bool {
     let ahead = abs(level_beside(walk, walk.rising) - walk.value);
-    return ahead <= max(abs(value - walk.value), abs(walk.value - walk.older));
+    return ahead <= 0.5 * max(abs(value - walk.value), abs(walk.value - walk.older));
 }
 
 // The next level above f, or that below.
@@ -120,18 +120,10 @@ fn band_of(value: f32, family: Family) -> i32 {
 
 // ---- What is to be searched where a walk has stopped ---------------------------------------------------------
 
-// In two parts: first for an extremum at the end of what has been searched, or, at the last sample, there; then for
-// levels in the step up to the sample. Looked for is the level above f, where `upper`, or that below.
+// Looked for is the level above f, where `upper`, or that below.
 struct Aim {
     search: Search,
     upper: bool,
-}
-
-fn aim_at(part: u32, walk: Walk, value: f32, count: f32, family: Family) -> Aim {
-    if part == 0u {
-        return aim_at_turn(walk, value, count, family);
-    }
-    return aim_in_step(walk, value, family);
 }
 
 // The place of the sample at the end of what has been searched.
@@ -144,6 +136,7 @@ fn grain_of(family: Family) -> f32 {
     return 4e-3 * family.spacing;
 }
 
+// An extremum at the end of what has been searched, or, at the last sample, there.
 fn aim_at_turn(walk: Walk, value: f32, count: f32, family: Family) -> Aim {
     let grain = grain_of(family);
     if is_lost(walk) || is_nan(value) {
@@ -153,7 +146,7 @@ fn aim_at_turn(walk: Walk, value: f32, count: f32, family: Family) -> Aim {
     if rises != walk.rising && may_turn(walk, value) {
         return Aim(search_turn(end_of(walk), max(walk.k - 2.0, walk.start), walk.k, grain), walk.rising);
     }
-    if walk.k >= count && abs(level_beside(walk, rises) - value) <= abs(value - walk.value) {
+    if walk.k >= count && abs(level_beside(walk, rises) - value) <= 0.5 * abs(value - walk.value) {
         return Aim(search_turn(walk.k, end_of(walk), walk.k, grain), rises);
     }
     return Aim(no_search(), false);

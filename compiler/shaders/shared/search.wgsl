@@ -19,8 +19,8 @@ struct Search {
     k: f32,        // where it wants the next one; of a hit, where that is
     low: Sample,   // the end of what is searched that is nearer to the eye; of an edge, the valid end
     high: Sample,  // the other end
-    size: f32,     // greatest |f - level| of the samples that it began with
-    weight: f32,   // of the slope at `low` against that at `high`
+    size: f32,     // greatest |f - level| of the samples that it began with; of an edge, f - level at the step's valid end
+    weight: f32,   // of the slope at `low` against that at `high`; of an edge, where that end is
 }
 
 // Looked for is which side of a sample an extremum is on, f at the other end of that side, an extremum, a root, where f
@@ -100,7 +100,22 @@ fn search_edge(valid: Sample, bad: f32) -> Search {
     search.low = valid;
     search.high.k = bad;
     search.k = 0.5 * (valid.k + bad);
+    search.size = valid.value;
+    search.weight = valid.k;
     return search;
+}
+
+// From the valid end of a step to the edge that has been found.
+fn search_before_edge(ended: Search) -> Search {
+    let edge = ended.low;
+    let end = Sample(ended.weight, ended.size, 0.0);
+    if !opposite(end, edge) {
+        return no_search();
+    }
+    if end.k > edge.k {
+        return search_root(edge, end, 0.0);
+    }
+    return search_root(end, edge, 0.0);
 }
 
 fn searched_edge(before: Search, found: Sample, valid: bool) -> Search {

@@ -104,19 +104,26 @@ fn seen_shells(before: Seen, sight: Sight, part: vec2f, half_size: vec3f, steps:
                 }
                 walk = walk_on(walk, value);
             }
-            for (var stage = view.zero; stage < 2u && !met; stage++) {
-                aim = aim_at(stage, walk, value, count, shells.family);
-                while is_searching(aim.search) {
+            // first for an extremum at the end of what has been searched, then in the step up to the sample
+            var turning = true;
+            aim = aim_at_turn(walk, value, count, shells.family);
+            while turning || is_searching(aim.search) {
+                if is_searching(aim.search) {
                     let goal = goal_of(aim, walk);
                     aim.search = search_on(aim.search, field_ray(origin, stride, aim.search.k), goal, count, 1e-4);
-                    if stage > 0u && has_rest(aim.search) {
+                    if !turning && has_rest(aim.search) {
                         let stopped = walk;
                         walk = walk_to_rest(stopped, aim.search, goal, shells.family);
                         aim = aim_at_rest(stopped, walk, value, aim.search, shells.family);
                     }
+                } else if has_met(aim.search) {
+                    turning = false;
+                } else {
+                    turning = false;
+                    aim = aim_in_step(walk, value, shells.family);
                 }
-                met = has_met(aim.search);
             }
+            met = has_met(aim.search);
             if !met {
                 walk = walk_from(walk, value, shells.family);
             }

@@ -101,9 +101,15 @@ fn swept_position(position: f32, sweep: f32, period: f32) -> f32 {
 // nearest one.
 fn box_edges(sight: Sight, t: f32, n: vec3f, center: vec3f, half_size: vec3f, width: f32) -> f32 {
     let p = sight.ray.origin + t * sight.ray.direction;
-    let gap = max(half_size - abs(p - center), vec3f(0.0));
-    let away = select(vec3f(1e9), gap * axis_spread(sight, t, n), axes_across(n));
-    return line_coverage(min(min(away.x, min(away.y, away.z)), 1e9), width, sample_window());
+    let gap = select(vec3f(1e30), max(half_size - abs(p - center), vec3f(0.0)), axes_across(n));
+    let window = sample_window();
+    // A unit of the plane is at least |n·d|/(1 + |n·d|) of it on the image. Few places are so near to an edge that more must
+    // be known.
+    if min(gap.x, min(gap.y, gap.z)) * abs(tilt_of(sight, n)) > (width + window) * sight_footprint(sight, t) {
+        return 0.0;
+    }
+    let away = gap * axis_spread(sight, t, n);
+    return line_coverage(min(min(away.x, min(away.y, away.z)), 1e9), width, window);
 }
 
 // Coverage by the lines at the multiples of `spacing` of each coordinate, on a plane.

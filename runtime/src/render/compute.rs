@@ -6,8 +6,17 @@ use crate::clock::Clock;
 use crate::tiles::Tile;
 use crate::{Error, Gpu};
 
-/// Side of a workgroup of the entry points.
-pub(super) const WORKGROUP: u32 = 8;
+/// Width and height of a workgroup of the entry points. A subgroup of 32 is 8 x 4 pixels; groups of 64 invocations would
+/// begin more slowly than short shaders end.
+const WORKGROUP: [u32; 2] = [8, 16];
+
+/// Workgroups that cover a tile.
+pub(super) fn groups(tile: &Tile) -> [u32; 2] {
+    [
+        tile.width.div_ceil(WORKGROUP[0]),
+        tile.height.div_ceil(WORKGROUP[1]),
+    ]
+}
 
 /// Pipeline and buffers of the compute path.
 #[derive(Debug)]
@@ -66,7 +75,7 @@ impl ComputeStage {
                     / bytes_per_pixel,
                 max_side: limits
                     .max_compute_workgroups_per_dimension
-                    .saturating_mul(WORKGROUP),
+                    .saturating_mul(WORKGROUP[0]),
             }
         })
     }
@@ -160,12 +169,9 @@ impl ComputeStage {
                 });
                 pass.set_pipeline(&self.pipeline);
                 pass.set_bind_group(0, &*bindings, &[]);
+                let [x, y] = groups(&tile);
                 for _ in 0..repeats {
-                    pass.dispatch_workgroups(
-                        tile.width.div_ceil(WORKGROUP),
-                        tile.height.div_ceil(WORKGROUP),
-                        1,
-                    );
+                    pass.dispatch_workgroups(x, y, 1);
                 }
             }
             if let Some(clock) = clock {

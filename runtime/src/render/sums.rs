@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::compute::{WORKGROUP, pipeline};
+use super::compute::{groups, pipeline};
 use super::{Frame, Pipeline, Uniforms, input_layout};
 use crate::buffers::{self, Growing};
 use crate::tiles::{Budget, Tile};
@@ -177,7 +177,7 @@ impl SumStage {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, self.bindings.as_ref(), &[]);
-        let [x, y] = [tile.width, tile.height].map(|side| side.div_ceil(WORKGROUP));
+        let [x, y] = groups(&tile);
         pass.dispatch_workgroups(x, y, 1);
     }
 

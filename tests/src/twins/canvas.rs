@@ -14,8 +14,8 @@ use crate::stills::Still;
 const SHORTEST: f64 = 2e-3;
 /// Every pipeline draws for this long before it counts, so that the device is at its working clock.
 const WARM_UP: Duration = Duration::from_millis(150);
-/// Side of a workgroup.
-const WORKGROUP: u32 = 8;
+/// What is dispatched.
+const ENTRY: &str = "compute_main";
 
 /// What all modules of a picture share.
 #[derive(Debug)]
@@ -33,6 +33,8 @@ pub struct Canvas {
 pub struct Stage {
     pipeline: wgpu::ComputePipeline,
     bindings: wgpu::BindGroup,
+    /// Width and height of a workgroup.
+    workgroup: [u32; 2],
 }
 
 impl Canvas {
@@ -108,6 +110,13 @@ impl Canvas {
             .filter_map(|(_, global)| Some(global.binding?.binding))
             .filter(|&binding| binding < 6)
             .collect();
+        let workgroup = module
+            .entry_points
+            .iter()
+            .find(|entry| entry.name == ENTRY)
+            .map_or([1; 2], |entry| {
+                [entry.workgroup_size[0], entry.workgroup_size[1]]
+            });
         let device = self.gpu.device();
         self.gpu.guarded("compiling a pipeline", || {
             let layout_entry = |binding| wgpu::BindGroupLayoutEntry {
@@ -138,7 +147,7 @@ impl Canvas {
                 label: None,
                 layout: Some(&pipeline_layout),
                 module: &shader,
-                entry_point: Some("compute_main"),
+                entry_point: Some(ENTRY),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 cache: None,
             });
@@ -152,7 +161,11 @@ impl Canvas {
                 layout: &layout,
                 entries: &entries,
             });
-            Stage { pipeline, bindings }
+            Stage {
+                pipeline,
+                bindings,
+                workgroup,
+            }
         })
     }
 
@@ -216,7 +229,7 @@ impl Canvas {
             });
             pass.set_pipeline(&stage.pipeline);
             pass.set_bind_group(0, &stage.bindings, &[]);
-            let [x, y] = self.size.map(|side| side.div_ceil(WORKGROUP));
+            let [x, y] = [0, 1].map(|k| self.size[k].div_ceil(stage.workgroup[k]));
             for _ in 0..repeats {
                 pass.dispatch_workgroups(x, y, 1);
             }
