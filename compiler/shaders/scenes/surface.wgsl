@@ -201,8 +201,8 @@ fn step_count(extent: f32, steps: u32) -> f32 {
 // The end of what has been walked over.
 struct Walk {
     k: f32,       // number of the next sample
-    value: f32,   // f - level at the last one
-    limit: f32,   // where |f - level| is not less at the next one, an extremum may be beyond the level; -1: f is undefined
+    value: f32,   // f - level at the last one; NaN where it is undefined
+    limit: f32,   // where |f - level| is not less at the next one, an extremum may be beyond the level
     below: bool,  // whether f is below the level
 }
 
@@ -245,19 +245,20 @@ fn march(path: Path, grain: f32) -> Hit {
 // than half of their second difference u - 2 v + w. Two straight lines go beyond v by that at most, a parabola by an
 // eighth of the difference.
 fn walk_on(walk: Walk, value: f32) -> Walk {
-    return Walk(walk.k + 1.0, value, max(abs(value), 4.0 * abs(value) - abs(walk.value)), walk.below);
+    return Walk(walk.k + 1.0, value, 4.0 * abs(value) - abs(walk.value), walk.below);
 }
 
 // Whether what a walk has come to, `value`, is where its last sample is such an extremum.
 fn turns(walk: Walk, value: f32) -> bool {
-    return abs(value) >= walk.limit && walk.limit <= 3.0 * abs(walk.value);
+    let last = abs(walk.value);
+    return abs(value) >= max(last, walk.limit) && walk.limit <= 3.0 * last;
 }
 
 // Over a sample in whose step nothing has been found.
 fn walk_from(walk: Walk, value: f32) -> Walk {
     let below = value < 0.0;
     if is_nan(value) {
-        return Walk(walk.k + 1.0, 0.0, -1.0, false);
+        return Walk(walk.k + 1.0, value, 0.0, false);
     }
     if is_lost(walk) || below != walk.below || walk.k == 0.0 {
         return Walk(walk.k + 1.0, value, 3.0 * abs(value), below);
@@ -267,7 +268,7 @@ fn walk_from(walk: Walk, value: f32) -> Walk {
 
 // Whether f is undefined where a walk is.
 fn is_lost(walk: Walk) -> bool {
-    return walk.limit < 0.0;
+    return is_nan(walk.value);
 }
 
 // The sample where a walk ended.
@@ -462,6 +463,10 @@ fn family_coverage(value: f32, rate: f32, window: f32) -> f32 {
         if abs(u) < 4194304.0 {
             let sparse = 1.0 - smoothstep(0.10, 0.28, lines);
             covered = max(covered, sparse * isolines(u, lines, window));
+        }
+        // the lines of wider families are lines of this one
+        if lines <= 0.10 {
+            break;
         }
         spacing *= 5.0;
     }
