@@ -202,8 +202,8 @@ fn step_count(extent: f32, steps: u32) -> f32 {
 struct Walk {
     k: f32,       // number of the next sample
     value: f32,   // f - level at the last one; NaN where it is undefined
-    limit: f32,   // where |f - level| is not less at the next one, an extremum may be beyond the level
-    below: bool,  // whether f is below the level
+    below: bool,  // whether that is negative
+    half: f32,    // f - level is between 0 and twice this at the next sample, unless something is to be searched
 }
 
 // The first hit on a path, to `grain` of a step or better. The inner loop only walks, by values alone, to where f changes its sign or, near the level,
@@ -213,13 +213,13 @@ fn march(path: Path, grain: f32) -> Hit {
     if !(path.count > 0.0) {
         return NO_HIT;
     }
-    // most functions are above the level at the border of the box
-    var walk = Walk(0.0, 0.0, LARGEST, false);
+    var walk = Walk(0.0, 0.0, false, 0.0);
     while walk.k <= path.count {
         var value: f32;
         loop {
             value = field(path.origin + walk.k * path.stride) - settings.level;
-            if !(((value < 0.0) == walk.below) & (abs(value) < walk.limit) & (walk.k < path.count)) {
+            // by one comparison: it takes as long as several operations, and the loop waits for it
+            if !((abs(value - walk.half) < size_of_half(walk)) & (walk.k < path.count)) {
                 break;
             }
             walk = walk_on(walk, value);
@@ -245,23 +245,29 @@ fn march(path: Path, grain: f32) -> Hit {
 // than half of their second difference u - 2 v + w. Two straight lines go beyond v by that at most, a parabola by an
 // eighth of the difference.
 fn walk_on(walk: Walk, value: f32) -> Walk {
-    return Walk(walk.k + 1.0, value, 4.0 * abs(value) - abs(walk.value), walk.below);
+    return Walk(walk.k + 1.0, value, walk.below, 2.0 * value - 0.5 * walk.value);
+}
+
+// Negative where the last sample came nearer to the level by more than three quarters.
+fn size_of_half(walk: Walk) -> f32 {
+    return select(walk.half, -walk.half, walk.below);
 }
 
 // Whether what a walk has come to, `value`, is where its last sample is such an extremum.
 fn turns(walk: Walk, value: f32) -> bool {
     let last = abs(walk.value);
-    return abs(value) >= max(last, walk.limit) && walk.limit <= 3.0 * last;
+    let half = size_of_half(walk);
+    return abs(value) >= last && abs(value) - half >= half && half <= 1.5 * last;
 }
 
 // Over a sample in whose step nothing has been found.
 fn walk_from(walk: Walk, value: f32) -> Walk {
     let below = value < 0.0;
     if is_nan(value) {
-        return Walk(walk.k + 1.0, value, 0.0, false);
+        return Walk(walk.k + 1.0, value, false, 0.0);
     }
     if is_lost(walk) || below != walk.below || walk.k == 0.0 {
-        return Walk(walk.k + 1.0, value, 3.0 * abs(value), below);
+        return Walk(walk.k + 1.0, value, below, 1.5 * value);
     }
     return walk_on(walk, value);
 }
@@ -367,19 +373,16 @@ fn look_at_base(base: vec3f, direction: vec3f, hit: Hit, on_ground: bool) -> Lig
     }
     var p = base;
     for (var k = view.zero; k < 4u; k++) {
-        if k == 0u || all(abs(p - settings.center) <= settings.box) {
-            let jet = field_grad(p);
-            if k == 0u {
-                light.jet = jet;
-                if hit.found {
-                    light.spot = spot_at(jet, direction, hit.touching);
-                }
-            } else {
-                light.closed += hidden_sky(jet, light.spot.side, k);
+        let jet = field_grad(p);
+        if k == 0u {
+            light.jet = jet;
+            if !hit.found {
+                break;
             }
-        }
-        if !hit.found {
-            break;
+            light.spot = spot_at(jet, direction, hit.touching);
+        } else {
+            let is_inside = all(abs(p - settings.center) <= settings.box);
+            light.closed += select(0.0, hidden_sky(jet, light.spot.side, k), is_inside);
         }
         p = base + open_height(k + 1u) * light.spot.n;
     }
@@ -579,7 +582,7 @@ fn shade(pixel: vec2f) -> vec4f {
     var shadowed = false;
     for (var leg = view.zero; leg < 2u; leg++) {
         // for a shadow it is enough that there is a surface
-        let found = march(path, select(1e-4, 0.5, leg > 0u));
+        let found = march(path, select(1e-3, 0.5, leg > 0u));
         if leg > 0u {
             shadowed = found.found;
             break;
