@@ -18,6 +18,16 @@ fn real_mul_add_rest(a: f32, b: f32, c: f32, s: f32) -> f32 {
     return 0.0;
 }
 
+/// The same of sin x.
+fn real_sine_rest(x: f32, s: f32) -> f32 {
+    return 0.0;
+}
+
+/// The same of cos x.
+fn real_cosine_rest(x: f32, s: f32) -> f32 {
+    return 0.0;
+}
+
 /// √(x² + y²), with care where a square leaves the range.
 fn real_hypot(x: f32, y: f32) -> f32 {
     let squared = x * x + y * y;
