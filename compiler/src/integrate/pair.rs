@@ -201,6 +201,34 @@ impl Integrator<'_> {
         known.get(&root).copied()
     }
 
+    /// The same with the rests of what is constant along the path, too.
+    pub(super) fn whole_pair(&mut self, root: Id, values: &[(Id, Pair)]) -> Option<Pair> {
+        let mut known: FxHashMap<Id, Pair> = values.iter().copied().collect();
+        for id in cone(self.g, &[root]) {
+            if known.contains_key(&id) {
+                continue;
+            }
+            let pair = self.pair_of_operation(id, &known);
+            let pair = match pair {
+                None if self.moves(id) => return None,
+                None => Pair::exact(self.g, id),
+                Some(pair) => pair,
+            };
+            known.insert(id, pair);
+        }
+        known.get(&root).copied()
+    }
+
+    /// Polynomials at a place that is known with what it is rounded by, each as one number.
+    pub(super) fn at_pair(&mut self, roots: &[Id], t: Id, low: Id) -> Vec<Id> {
+        let whole = self.path.clone();
+        let values = whole.pairs_beside(self.g, t, low);
+        roots
+            .iter()
+            .map(|&root| self.pair(root, &values).total(self.g))
+            .collect()
+    }
+
     /// The pair of an operation by those of its operands; `None` of what has none.
     pub(super) fn pair_of_operation(
         &mut self,

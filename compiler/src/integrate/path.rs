@@ -169,6 +169,26 @@ impl Path {
         self.coordinates.iter().map(at).collect()
     }
 
+    /// The coordinates at t = 0.
+    pub fn pairs_at_origin(&self) -> Vec<(Id, Pair)> {
+        let at = |c: &Coordinate| Pair {
+            value: c.origin,
+            rest: c.low,
+        };
+        self.coordinates.iter().map(|c| (c.leaf, at(c))).collect()
+    }
+
+    /// The coordinates at t with what it is rounded by.
+    pub fn pairs_beside(&self, g: &mut Graph, t: Id, low: Id) -> Vec<(Id, Pair)> {
+        let at = |c: &Coordinate| {
+            let mut pair = c.at(g, t);
+            let beside = mul(g, low, c.slope);
+            pair.rest = add(g, pair.rest, beside);
+            (c.leaf, pair)
+        };
+        self.coordinates.iter().map(at).collect()
+    }
+
     /// The coordinates at t, which is not rounded, with what they are rounded by.
     pub fn pairs(&self, g: &mut Graph, t: Id) -> Vec<(Id, Pair)> {
         let at = |c: &Coordinate| (c.leaf, c.at(g, t));

@@ -1,0 +1,339 @@
+//! Whether two expressions are the same by their normal forms ([`super::normal`]), case by case of their conditions.
+//!
+//! Sines, exponentials and their quotients become what they are; other functions stand for themselves, as variables that are the
+//! same where their arguments are. A condition is the sign of a sum; where it decides which of two different forms counts,
+//! both are looked at. Places where two sides are equal, which are single places, are not.
+
+use rustc_hash::FxHashMap;
+
+use super::normal::{Budget, Form, Quotient};
+use super::path::cone;
+use crate::ir::{Graph, Id, Op, Prim, Ty};
+
+/// Greatest number of cases.
+const MAX_CASES: usize = 64;
+/// Greatest number of products of terms.
+const MAX_PRODUCTS: usize = 1_500_000;
+/// Numbers of variables: parameters, the clock, the pixel, and what stands for itself.
+const PARAMS: u16 = 1000;
+const TIME: u16 = 900;
+const PIXEL: u16 = 901;
+const OTHERS: u16 = 10_000;
+
+/// Why there is no normal form.
+#[derive(Clone, Debug)]
+enum Stop {
+    /// An operation or number has none, or there are too many terms.
+    Unknown,
+    /// The sign of this is to be known first.
+    Split(Form),
+}
+
+/// Reads expressions in one case of the signs of some sums.
+struct Reader<'g> {
+    g: &'g Graph,
+    /// Whether the interval is empty: its second end is the first.
+    is_empty: bool,
+    /// Sums with whether they are positive.
+    signs: &'g [(Form, bool)],
+    values: FxHashMap<Id, Result<Quotient, Stop>>,
+    truths: FxHashMap<Id, Result<bool, Stop>>,
+    others: Vec<(Prim, Vec<Quotient>)>,
+    budget: Budget,
+}
+
+/// Whether both expressions are the same in every case; `false` also where that is not known.
+pub fn are_equal(g: &Graph, [left, right]: [Id; 2], is_empty: bool) -> bool {
+    let mut cases: Vec<Vec<(Form, bool)>> = vec![Vec::new()];
+    let mut count = 0;
+    while let Some(signs) = cases.pop() {
+        count += 1;
+        if count > MAX_CASES {
+            return false;
+        }
+        let mut reader = Reader {
+            g,
+            is_empty,
+            signs: &signs,
+            values: FxHashMap::default(),
+            truths: FxHashMap::default(),
+            others: Vec::new(),
+            budget: Budget(MAX_PRODUCTS),
+        };
+        match reader.compare(left, right) {
+            Ok(true) => {}
+            Ok(false) | Err(Stop::Unknown) => return false,
+            Err(Stop::Split(of)) => {
+                for sign in [true, false] {
+                    let mut signs = signs.clone();
+                    signs.push((of.clone(), sign));
+                    cases.push(signs);
+                }
+            }
+        }
+    }
+    true
+}
+
+impl Reader<'_> {
+    fn compare(&mut self, left: Id, right: Id) -> Result<bool, Stop> {
+        let [left, right] = [self.read(left)?, self.read(right)?];
+        left.equals(&right, &mut self.budget).ok_or(Stop::Unknown)
+    }
+
+    fn read(&mut self, root: Id) -> Result<Quotient, Stop> {
+        for id in cone(self.g, &[root]) {
+            if self.g.ty(id) == Ty::Real {
+                if !self.values.contains_key(&id) {
+                    let value = self.value(id);
+                    self.values.insert(id, value);
+                }
+            } else if !self.truths.contains_key(&id) {
+                let truth = self.truth(id);
+                self.truths.insert(id, truth);
+            }
+        }
+        self.known(root)
+    }
+
+    fn known(&self, id: Id) -> Result<Quotient, Stop> {
+        self.values.get(&id).cloned().unwrap_or(Err(Stop::Unknown))
+    }
+
+    fn value(&mut self, id: Id) -> Result<Quotient, Stop> {
+        let node = self.g.node(id);
+        let variable = |k: u16| Ok(Quotient::whole(Form::variable(k)));
+        match node.op {
+            Op::Const(bits) => {
+                let v = f64::from_bits(bits);
+                if v.is_finite() {
+                    Ok(Quotient::whole(Form::constant(v)))
+                } else {
+                    Err(Stop::Unknown)
+                }
+            }
+            Op::Input(7) if self.is_empty => variable(6),
+            Op::Input(k) => variable(k),
+            Op::Param(k) => variable(PARAMS.saturating_add(k)),
+            Op::Time => variable(TIME),
+            Op::Pixel => variable(PIXEL),
+            Op::Apply(Prim::Select) => self.selected(&node.args),
+            Op::Apply(prim) => {
+                let args: Result<Vec<Quotient>, Stop> =
+                    node.args.iter().map(|&a| self.known(a)).collect();
+                self.operation(prim, &args?)
+            }
+            _ => Err(Stop::Unknown),
+        }
+    }
+
+    /// What both branches are where they are the same, else the one that counts.
+    fn selected(&mut self, args: &[Id]) -> Result<Quotient, Stop> {
+        let &[condition, then, otherwise] = args else {
+            return Err(Stop::Unknown);
+        };
+        let branches = [self.known(then), self.known(otherwise)];
+        if let [Ok(then), Ok(otherwise)] = &branches
+            && then.equals(otherwise, &mut self.budget) == Some(true)
+        {
+            return Ok(then.clone());
+        }
+        let truth = self.truths.get(&condition).cloned();
+        let [then, otherwise] = branches;
+        if truth.unwrap_or(Err(Stop::Unknown))? {
+            then
+        } else {
+            otherwise
+        }
+    }
+
+    fn truth(&mut self, id: Id) -> Result<bool, Stop> {
+        let node = self.g.node(id);
+        let of = |k: usize| self.truths.get(&node.args[k]).cloned();
+        let both = || {
+            let unknown = || Err(Stop::Unknown);
+            let [a, b] = [of(0), of(1)].map(|t| t.unwrap_or_else(unknown));
+            Ok::<[bool; 2], Stop>([a?, b?])
+        };
+        match node.op {
+            Op::Truth(v) => Ok(v),
+            Op::Apply(Prim::And) => both().map(|[a, b]| a && b),
+            Op::Apply(Prim::Or) => both().map(|[a, b]| a || b),
+            Op::Apply(Prim::Not) => of(0).unwrap_or(Err(Stop::Unknown)).map(|t| !t),
+            Op::Apply(Prim::Less | Prim::LessEqual) => {
+                let [low, high] = [self.known(node.args[0])?, self.known(node.args[1])?];
+                let difference = self.sum(&high, &low, -1.0)?;
+                self.is_positive(&difference)
+            }
+            Op::Apply(Prim::Equal) => {
+                let [a, b] = [self.known(node.args[0])?, self.known(node.args[1])?];
+                a.equals(&b, &mut self.budget).ok_or(Stop::Unknown)
+            }
+            _ => Err(Stop::Unknown),
+        }
+    }
+
+    /// Whether a quotient is positive in this case.
+    fn is_positive(&mut self, of: &Quotient) -> Result<bool, Stop> {
+        let form = self.product_of(&of.top, &of.bottom)?;
+        if let Some(v) = form.as_number() {
+            return Ok(v > 0.0);
+        }
+        for (known, sign) in self.signs {
+            if let Some(side) = known.side_of(&form) {
+                return Ok(*sign == (side > 0.0));
+            }
+        }
+        Err(Stop::Split(form))
+    }
+
+    fn product_of(&mut self, a: &Form, b: &Form) -> Result<Form, Stop> {
+        a.times(b, &mut self.budget).ok_or(Stop::Unknown)
+    }
+
+    fn sum(&mut self, a: &Quotient, b: &Quotient, v: f64) -> Result<Quotient, Stop> {
+        a.plus(b, v, &mut self.budget).ok_or(Stop::Unknown)
+    }
+
+    fn product(&mut self, a: &Quotient, b: &Quotient) -> Result<Quotient, Stop> {
+        a.times(b, &mut self.budget).ok_or(Stop::Unknown)
+    }
+
+    fn quotient(&mut self, a: &Quotient, b: &Quotient) -> Result<Quotient, Stop> {
+        a.over(b, &mut self.budget).ok_or(Stop::Unknown)
+    }
+
+    fn power(&mut self, of: &Quotient, n: i32) -> Result<Quotient, Stop> {
+        let one = number(1.0);
+        let mut out = one.clone();
+        let size = n.unsigned_abs();
+        for bit in (0..u32::BITS - size.leading_zeros()).rev() {
+            out = self.product(&out, &out)?;
+            if size >> bit & 1 == 1 {
+                out = self.product(&out, of)?;
+            }
+        }
+        if n < 0 {
+            self.quotient(&one, &out)
+        } else {
+            Ok(out)
+        }
+    }
+
+    fn operation(&mut self, prim: Prim, args: &[Quotient]) -> Result<Quotient, Stop> {
+        let zero = number(0.0);
+        match (prim, args) {
+            (Prim::Add, [a, b]) => self.sum(a, b, 1.0),
+            (Prim::Sub, [a, b]) => self.sum(a, b, -1.0),
+            (Prim::Neg, [a]) => self.sum(&zero, a, -1.0),
+            (Prim::Mul, [a, b]) => self.product(a, b),
+            (Prim::Div, [a, b]) => self.quotient(a, b),
+            (Prim::PowInt(n), [a]) => self.power(a, n),
+            (Prim::MulAdd, [a, b, c]) => {
+                let product = self.product(a, b)?;
+                self.sum(&product, c, 1.0)
+            }
+            (Prim::SquarePlus, [a, c]) => {
+                let square = self.product(a, a)?;
+                self.sum(&square, c, 1.0)
+            }
+            // rests of roundings are 0
+            (Prim::SumRest, [a, b, s]) => {
+                let sum = self.sum(a, b, 1.0)?;
+                self.sum(&sum, s, -1.0)
+            }
+            (Prim::MulAddRest, [a, b, c, s]) => {
+                let product = self.product(a, b)?;
+                let sum = self.sum(&product, c, 1.0)?;
+                self.sum(&sum, s, -1.0)
+            }
+            (Prim::SineRest, [x, s]) => {
+                let sine = self.operation(Prim::Sin, std::slice::from_ref(x))?;
+                self.sum(&sine, s, -1.0)
+            }
+            (Prim::CosineRest, [x, s]) => {
+                let cosine = self.operation(Prim::Cos, std::slice::from_ref(x))?;
+                self.sum(&cosine, s, -1.0)
+            }
+            (Prim::Abs, [a]) => {
+                let sign = if self.is_positive(a)? { 1.0 } else { -1.0 };
+                self.sum(&zero, a, sign)
+            }
+            (Prim::Sign, [a]) => Ok(number(if self.is_positive(a)? { 1.0 } else { -1.0 })),
+            (Prim::Max | Prim::Min, [a, b]) => {
+                let difference = self.sum(a, b, -1.0)?;
+                let is_first = self.is_positive(&difference)? == (prim == Prim::Max);
+                Ok(if is_first { a.clone() } else { b.clone() })
+            }
+            _ => self.function(prim, args),
+        }
+    }
+
+    fn function(&mut self, prim: Prim, args: &[Quotient]) -> Result<Quotient, Stop> {
+        let one = number(1.0);
+        let x = args.first().ok_or(Stop::Unknown)?;
+        if matches!(prim, Prim::Sinc | Prim::Sinhc | Prim::Exprel) && x.top.is_zero() {
+            return Ok(one);
+        }
+        if args.len() == 1
+            && let Some(form) = x.as_form()
+        {
+            let waves = |round: bool| Form::waves(&form, round).map(|w| w.map(Quotient::whole));
+            let whole = |k: usize, round: bool| waves(round).map(|w| w[k].clone());
+            let found = match prim {
+                Prim::Exp => Form::exp(&form).map(Quotient::whole),
+                Prim::Sin => whole(0, true),
+                Prim::Cos => whole(1, true),
+                Prim::Sinh => whole(0, false),
+                Prim::Cosh => whole(1, false),
+                Prim::Sinc | Prim::Sinhc => {
+                    let sine = whole(0, prim == Prim::Sinc);
+                    sine.and_then(|s| s.over(x, &mut self.budget))
+                }
+                Prim::Expm1 | Prim::Exprel => {
+                    let grown = Form::exp(&form).map(|e| e.plus(&Form::constant(1.0), -1.0));
+                    grown.map(Quotient::whole).and_then(|e| {
+                        if prim == Prim::Expm1 {
+                            Some(e)
+                        } else {
+                            e.over(x, &mut self.budget)
+                        }
+                    })
+                }
+                _ => None,
+            };
+            if let Some(found) = found {
+                return Ok(found);
+            }
+        }
+        self.standing_for_itself(prim, args)
+    }
+
+    /// The variable of a function whose arguments are the same as of one before, or a new one.
+    fn standing_for_itself(&mut self, prim: Prim, args: &[Quotient]) -> Result<Quotient, Stop> {
+        let mut found = None;
+        for (k, (other, known)) in self.others.iter().enumerate() {
+            if *other != prim || known.len() != args.len() {
+                continue;
+            }
+            let mut is_same = true;
+            for (a, b) in known.iter().zip(args) {
+                is_same &= a.equals(b, &mut self.budget).ok_or(Stop::Unknown)?;
+            }
+            if is_same {
+                found = Some(k);
+                break;
+            }
+        }
+        let k = found.unwrap_or_else(|| {
+            self.others.push((prim, args.to_vec()));
+            self.others.len() - 1
+        });
+        let k = u16::try_from(k).map_err(|_| Stop::Unknown)?;
+        Ok(Quotient::whole(Form::variable(OTHERS.saturating_add(k))))
+    }
+}
+
+fn number(v: f64) -> Quotient {
+    Quotient::whole(Form::constant(v))
+}
