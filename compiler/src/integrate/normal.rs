@@ -196,7 +196,12 @@ impl Form {
 
     /// a b; `None` where that has too many terms.
     pub fn times(&self, other: &Self, budget: &mut Budget) -> Option<Self> {
-        budget.0 = budget.0.checked_sub(self.terms.len() * other.terms.len())?;
+        let count = self.terms.len() * other.terms.len();
+        let Some(left) = budget.0.checked_sub(count) else {
+            budget.0 = 0;
+            return None;
+        };
+        budget.0 = left;
         let mut out = Self::default();
         for (left, a) in &self.terms {
             for (right, b) in &other.terms {

@@ -11,9 +11,9 @@ use super::path::cone;
 use crate::ir::{Graph, Id, Op, Prim, Ty};
 
 /// Greatest number of cases.
-const MAX_CASES: usize = 64;
-/// Greatest number of products of terms.
-const MAX_PRODUCTS: usize = 1_500_000;
+const MAX_CASES: usize = 32;
+/// Greatest number of products of terms, of all cases together.
+const MAX_PRODUCTS: usize = 150_000;
 /// Numbers of variables: parameters, the clock, the pixel, and what stands for itself.
 const PARAMS: u16 = 1000;
 const TIME: u16 = 900;
@@ -45,7 +45,7 @@ struct Reader<'g> {
 /// Whether both expressions are the same in every case; `false` also where that is not known.
 pub fn are_equal(g: &Graph, [left, right]: [Id; 2], is_empty: bool) -> bool {
     let mut cases: Vec<Vec<(Form, bool)>> = vec![Vec::new()];
-    let mut count = 0;
+    let (mut count, mut left_over) = (0, MAX_PRODUCTS);
     while let Some(signs) = cases.pop() {
         count += 1;
         if count > MAX_CASES {
@@ -58,9 +58,11 @@ pub fn are_equal(g: &Graph, [left, right]: [Id; 2], is_empty: bool) -> bool {
             values: FxHashMap::default(),
             truths: FxHashMap::default(),
             others: Vec::new(),
-            budget: Budget(MAX_PRODUCTS),
+            budget: Budget(left_over),
         };
-        match reader.compare(left, right) {
+        let found = reader.compare(left, right);
+        left_over = reader.budget.0;
+        match found {
             Ok(true) => {}
             Ok(false) | Err(Stop::Unknown) => return false,
             Err(Stop::Split(of)) => {
