@@ -224,6 +224,41 @@ impl Form {
         Some(out.without_zeros())
     }
 
+    /// The derivative by a variable.
+    pub fn slope(&self, by: u16) -> Self {
+        let mut out = Self::default();
+        for (key, c) in &self.terms {
+            let mut push = |key: Key, (re, im): (f64, f64)| {
+                let c = Coefficient {
+                    re: c.re * re - c.im * im,
+                    im: c.re * im + c.im * re,
+                    size: c.size * re.hypot(im),
+                };
+                out.push(key, c);
+            };
+            if let Some((powers, n)) = lowered(&key.powers, by) {
+                let powers = Key {
+                    powers,
+                    ..key.clone()
+                };
+                push(powers, (n, 0.0));
+            }
+            for (exponent, is_phase) in [(&key.growth, false), (&key.phase, true)] {
+                for (powers, bits) in exponent {
+                    if let Some((powers, n)) = lowered(powers, by) {
+                        let v = n * f64::from_bits(*bits);
+                        let powers = Key {
+                            powers: product(&key.powers, &powers),
+                            ..key.clone()
+                        };
+                        push(powers, if is_phase { (0.0, v) } else { (v, 0.0) });
+                    }
+                }
+            }
+        }
+        out.without_zeros()
+    }
+
     /// 1 or -1 where a positive or negative multiple of this is the other.
     pub fn side_of(&self, other: &Self) -> Option<f64> {
         let (key, first) = self.terms.iter().next()?;
@@ -283,6 +318,17 @@ impl Quotient {
         self.times(&turned, budget)
     }
 
+    /// The derivative by a variable.
+    pub fn slope(&self, by: u16, budget: &mut Budget) -> Option<Self> {
+        let (top, bottom) = (self.top.slope(by), self.bottom.slope(by));
+        let left = top.times(&self.bottom, budget)?;
+        let right = self.top.times(&bottom, budget)?;
+        Some(Self {
+            top: left.plus(&right, -1.0),
+            bottom: self.bottom.times(&self.bottom, budget)?,
+        })
+    }
+
     /// Whether both are the same; `None` where that takes too many terms.
     pub fn equals(&self, other: &Self, budget: &mut Budget) -> Option<bool> {
         Some(self.plus(other, -1.0, budget)?.top.is_zero())
@@ -293,6 +339,14 @@ impl Quotient {
         let v = self.bottom.as_number()?;
         Some(Form::default().plus(&self.top, 1.0 / v))
     }
+}
+
+/// The derivative of powers by a variable: lowered by one, and what that is multiplied by.
+fn lowered(powers: &Powers, by: u16) -> Option<(Powers, f64)> {
+    let n = powers.iter().find(|p| p.0 == by)?.1;
+    let lower = |&(k, m): &(u16, u16)| (k, if k == by { m - 1 } else { m });
+    let out = powers.iter().map(lower).filter(|p| p.1 > 0).collect();
+    Some((out, f64::from(n)))
 }
 
 fn product(a: &Powers, b: &Powers) -> Powers {

@@ -1,8 +1,8 @@
-//! Whether two expressions are the same by their normal forms ([`super::normal`]), case by case of their conditions.
+//! Whether an expression is an integral, by normal forms ([`super::normal`]), case by case of its conditions.
 //!
-//! Sines, exponentials and their quotients become what they are; other functions stand for themselves, as variables that are the
-//! same where their arguments are. A condition is the sign of a sum; where it decides which of two different forms counts,
-//! both are looked at. Places where two sides are equal, which are single places, are not.
+//! Sines, exponentials and their quotients become what they are, and are differentiated as that; what else there is has no
+//! normal form. A condition is the sign of a sum; where it decides which of two different forms counts, both are looked at.
+//! Places where two sides are equal, which are single places, are not.
 
 use rustc_hash::FxHashMap;
 
@@ -14,11 +14,13 @@ use crate::ir::{Graph, Id, Op, Prim, Ty};
 const MAX_CASES: usize = 32;
 /// Greatest number of products of terms, of all cases together.
 const MAX_PRODUCTS: usize = 150_000;
-/// Numbers of variables: parameters, the clock, the pixel, and what stands for itself.
+/// Numbers of variables beside the inputs: parameters, the clock and the pixel.
 const PARAMS: u16 = 1000;
 const TIME: u16 = 900;
 const PIXEL: u16 = 901;
-const OTHERS: u16 = 10_000;
+/// The inputs that are the ends of the interval.
+const START: u16 = 6;
+const END: u16 = 7;
 
 /// Why there is no normal form.
 #[derive(Clone, Debug)]
@@ -38,12 +40,28 @@ struct Reader<'g> {
     signs: &'g [(Form, bool)],
     values: FxHashMap<Id, Result<Quotient, Stop>>,
     truths: FxHashMap<Id, Result<bool, Stop>>,
-    others: Vec<(Prim, Vec<Quotient>)>,
     budget: Budget,
 }
 
-/// Whether both expressions are the same in every case; `false` also where that is not known.
-pub fn are_equal(g: &Graph, [left, right]: [Id; 2], is_empty: bool) -> bool {
+/// Whether an expression is the integral of a field from input 6 to input 7: whether its derivative by input 7 is the other
+/// expression, the field there, and whether it is 0 where both are the same. `false` also where that is not known.
+pub fn is_integral(g: &Graph, integral: Id, field: Id) -> bool {
+    let roots = [integral, field];
+    let is_read = |&id: &Id| match g.node(id).op {
+        Op::Apply(prim) => is_elementary(prim),
+        _ => true,
+    };
+    cone(g, &roots).iter().all(is_read)
+        && in_every_case(g, false, |reader| reader.is_slope(integral, field))
+        && in_every_case(g, true, |reader| Ok(reader.read(integral)?.top.is_zero()))
+}
+
+/// Whether something holds in every case of the signs that it asks for.
+fn in_every_case(
+    g: &Graph,
+    is_empty: bool,
+    holds: impl Fn(&mut Reader) -> Result<bool, Stop>,
+) -> bool {
     let mut cases: Vec<Vec<(Form, bool)>> = vec![Vec::new()];
     let (mut count, mut left_over) = (0, MAX_PRODUCTS);
     while let Some(signs) = cases.pop() {
@@ -57,10 +75,9 @@ pub fn are_equal(g: &Graph, [left, right]: [Id; 2], is_empty: bool) -> bool {
             signs: &signs,
             values: FxHashMap::default(),
             truths: FxHashMap::default(),
-            others: Vec::new(),
             budget: Budget(left_over),
         };
-        let found = reader.compare(left, right);
+        let found = holds(&mut reader);
         left_over = reader.budget.0;
         match found {
             Ok(true) => {}
@@ -77,10 +94,55 @@ pub fn are_equal(g: &Graph, [left, right]: [Id; 2], is_empty: bool) -> bool {
     true
 }
 
+/// Whether an operation has a normal form.
+fn is_elementary(prim: Prim) -> bool {
+    use Prim::{
+        Abs, Add, And, Cos, Cosh, CosineRest, Div, Equal, Exp, Expm1, Exprel, Less, LessEqual, Max,
+        Min, Mul, MulAdd, MulAddRest, Neg, Not, Or, PowInt, Select, Sign, Sin, Sinc, SineRest,
+        Sinh, Sinhc, SquarePlus, Sub, SumRest,
+    };
+    matches!(
+        prim,
+        Abs | Add
+            | And
+            | Cos
+            | CosineRest
+            | Cosh
+            | Div
+            | Equal
+            | Exp
+            | Expm1
+            | Exprel
+            | Less
+            | LessEqual
+            | Max
+            | Min
+            | Mul
+            | MulAdd
+            | MulAddRest
+            | Neg
+            | Not
+            | Or
+            | PowInt(_)
+            | Select
+            | Sign
+            | Sin
+            | Sinc
+            | SineRest
+            | Sinh
+            | Sinhc
+            | SquarePlus
+            | Sub
+            | SumRest
+    )
+}
+
 impl Reader<'_> {
-    fn compare(&mut self, left: Id, right: Id) -> Result<bool, Stop> {
-        let [left, right] = [self.read(left)?, self.read(right)?];
-        left.equals(&right, &mut self.budget).ok_or(Stop::Unknown)
+    fn is_slope(&mut self, integral: Id, field: Id) -> Result<bool, Stop> {
+        let [integral, field] = [self.read(integral)?, self.read(field)?];
+        let slope = integral.slope(END, &mut self.budget);
+        let slope = slope.ok_or(Stop::Unknown)?;
+        slope.equals(&field, &mut self.budget).ok_or(Stop::Unknown)
     }
 
     fn read(&mut self, root: Id) -> Result<Quotient, Stop> {
@@ -114,7 +176,7 @@ impl Reader<'_> {
                     Err(Stop::Unknown)
                 }
             }
-            Op::Input(7) if self.is_empty => variable(6),
+            Op::Input(END) if self.is_empty => variable(START),
             Op::Input(k) => variable(k),
             Op::Param(k) => variable(PARAMS.saturating_add(k)),
             Op::Time => variable(TIME),
@@ -304,35 +366,9 @@ impl Reader<'_> {
                 }
                 _ => None,
             };
-            if let Some(found) = found {
-                return Ok(found);
-            }
+            return found.ok_or(Stop::Unknown);
         }
-        self.standing_for_itself(prim, args)
-    }
-
-    /// The variable of a function whose arguments are the same as of one before, or a new one.
-    fn standing_for_itself(&mut self, prim: Prim, args: &[Quotient]) -> Result<Quotient, Stop> {
-        let mut found = None;
-        for (k, (other, known)) in self.others.iter().enumerate() {
-            if *other != prim || known.len() != args.len() {
-                continue;
-            }
-            let mut is_same = true;
-            for (a, b) in known.iter().zip(args) {
-                is_same &= a.equals(b, &mut self.budget).ok_or(Stop::Unknown)?;
-            }
-            if is_same {
-                found = Some(k);
-                break;
-            }
-        }
-        let k = found.unwrap_or_else(|| {
-            self.others.push((prim, args.to_vec()));
-            self.others.len() - 1
-        });
-        let k = u16::try_from(k).map_err(|_| Stop::Unknown)?;
-        Ok(Quotient::whole(Form::variable(OTHERS.saturating_add(k))))
+        Err(Stop::Unknown)
     }
 }
 
