@@ -2,6 +2,7 @@
 //! rule in f64 that knows nothing of them.
 
 pub mod classes;
+pub mod operations;
 pub mod rays;
 pub mod tables;
 
@@ -33,6 +34,8 @@ pub struct Outcome {
     pub ray: Ray,
     /// ∫ f
     pub exact: f64,
+    /// ∫ |f|
+    pub size: f64,
     /// What the closed form gives.
     pub found: f64,
     /// Its error.
@@ -96,6 +99,16 @@ pub fn textbook(antiderivative: &str) -> Formula {
     compile_function(&text).unwrap_or_else(|e| panic!("{text}: {e:?}"))
 }
 
+/// ∫ of a density as a function of the ray.
+///
+/// # Panics
+/// A part of the density has no closed form.
+#[must_use]
+pub fn closed_form(of: &Formula) -> Formula {
+    let made = field_integral(of, Otherwise::Refuse);
+    made.unwrap_or_else(|e| panic!("{e:?}")).into_formula(of)
+}
+
 /// Measures a class on the rays, by the machine.
 ///
 /// # Errors
@@ -105,10 +118,7 @@ pub fn textbook(antiderivative: &str) -> Formula {
 /// A part of the density has no closed form.
 pub fn measure(class: &Class, rays: &[Ray], machine: &Machine) -> Result<Found, String> {
     let of = formula(class.formula);
-    let made = field_integral(&of, Otherwise::Refuse);
-    let integral = made
-        .unwrap_or_else(|e| panic!("{}: {e:?}", class.formula))
-        .into_formula(&of);
+    let integral = closed_form(&of);
     is_written_alike(class, &of, rays)?;
     let exact: Vec<(Ray, Truth)> = rays
         .iter()
@@ -131,6 +141,7 @@ pub fn measure(class: &Class, rays: &[Ray], machine: &Machine) -> Result<Found, 
     let outcome = |(k, (ray, truth)): (usize, &(Ray, Truth))| Outcome {
         ray: *ray,
         exact: truth.value,
+        size: truth.size,
         found: own[k],
         error: error(own[k], truth),
         moved: 0.0,

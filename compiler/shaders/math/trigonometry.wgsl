@@ -116,6 +116,49 @@ fn real_cos(x: f32) -> f32 {
     return real_sincos(x).y;
 }
 
+/// sin (r + low) or cos (r + low) minus s, for |r| ≤ π/4: Taylor's series, of which the parts that count are sums of two
+/// numbers. 1/6, 1/120 and 1/24 are so, too.
+/// Error: 2^-34.
+fn wave_rest(turns: QuarterTurns, s: f32, of_cosine: bool) -> f32 {
+    let r = turns.rest;
+    let zero = hidden_zero(r);
+    let z = two_product(r, r, zero);
+    let odd = two_product(r, z.x, zero);
+    let sine_tail = -0.0001984127 + z.x * (2.7557319e-06 + z.x * -2.5052108e-08);
+    let cosine_tail = -0.0013888889 + z.x * (2.4801588e-05 + z.x * (-2.755732e-07 + z.x * 2.0876757e-09));
+    // head + factor (outer + z (inner + z tail))
+    let head = select(r, 1.0, of_cosine);
+    let factor = select(odd.x, z.x, of_cosine);
+    let factor_low = select(odd.y + r * z.y, z.y, of_cosine);
+    let tail = opaque(z.x * select(sine_tail, cosine_tail, of_cosine), zero);
+    let inner = two_sum(select(0.008333334, 0.041666668, of_cosine), tail, zero);
+    let inner_low = inner.y + select(-4.346172e-10, -1.2417635e-09, of_cosine);
+    let middle = two_product(inner.x, z.x, zero);
+    let middle_low = middle.y + (inner_low * z.x + inner.x * z.y);
+    let outer = two_sum(select(-0.16666667, -0.5, of_cosine), middle.x, zero);
+    let outer_low = outer.y + (middle_low + select(4.967054e-09, 0.0, of_cosine));
+    let product = two_product(factor, outer.x, zero);
+    let product_low = product.y + (factor * outer_low + factor_low * outer.x);
+    let slope = select(1.0 - z.x * (0.5 - 0.041666668 * z.x), r * (z.x * (0.16666667 - 0.008333334 * z.x) - 1.0), of_cosine);
+    let sum = two_sum(head, product.x, zero);
+    let rest = opaque(sum.x - s, zero) + (sum.y + (product_low + turns.low * slope));
+    return select(0.0, rest, is_finite(rest));
+}
+
+/// sin x - s, where s is near it; 0 where that is no number.
+fn real_sine_rest(x: f32, s: f32) -> f32 {
+    let turns = quarter_turns(magnitude(x));
+    let sign = ((turns.count & 2u) << 30u) ^ sign_bit(x);
+    return flip_sign(wave_rest(turns, flip_sign(s, sign), (turns.count & 1u) == 1u), sign);
+}
+
+/// cos x - s, where s is near it; 0 where that is no number.
+fn real_cosine_rest(x: f32, s: f32) -> f32 {
+    let turns = quarter_turns(magnitude(x));
+    let sign = ((turns.count + 1u) & 2u) << 30u;
+    return flip_sign(wave_rest(turns, flip_sign(s, sign), (turns.count & 1u) == 0u), sign);
+}
+
 /// tan r = r + r^3 P(r²) for |r| ≤ π/4; coefficients.py, tan.
 fn tan_polynomial(r: f32) -> f32 {
     let z = r * r;

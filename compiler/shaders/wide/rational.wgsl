@@ -62,6 +62,16 @@ fn real_mul_add_rest(a: real, b: real, c: real, s: real) -> real {
     return num(0.0);
 }
 
+/// The same of sin x.
+fn real_sine_rest(x: real, s: real) -> real {
+    return num(0.0);
+}
+
+/// The same of cos x.
+fn real_cosine_rest(x: real, s: real) -> real {
+    return num(0.0);
+}
+
 /// -b/a, 0 where a is next to nothing or the quotient is no number of moderate size.
 fn real_foot(a: real, b: real) -> real {
     if is_below(real_abs(a), 1e-30) {

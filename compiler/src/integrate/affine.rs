@@ -185,7 +185,10 @@ impl Integrator<'_> {
     ) -> Id {
         let ratio = self.g.div(x.mid, x.slope);
         let foot = self.g.sub(self.path.middle, ratio);
-        let coefficients = self.taylor(polynomials, degree, foot);
+        let low = self.pair_at(x.of, foot).total(self.g);
+        let low = self.g.div(low, x.slope);
+        let low = self.g.neg(low);
+        let coefficients = self.taylor(polynomials, degree, foot, low);
         let mut parts = Vec::new();
         for (k, c) in (0_u32..).zip(coefficients) {
             let power = self

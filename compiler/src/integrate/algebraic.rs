@@ -15,6 +15,11 @@ use crate::ir::{Id, Prim};
 pub const MAX_DEGREE_BESIDE_POWER: u32 = 12;
 /// Nodes on intervals whose nearest singularity is 2h from the middle: (2 + √3)⁻²⁴ is 2e-14.
 pub(super) const NEAR_NODES: usize = 12;
+/// The same of moments, which cancel around a foot that is not far from an interval with a zero of the polynomial: nodes
+/// where the nearest singularity is 1.29h from the middle, 2.1⁻³² is 5e-11.
+const NEAR_NODES_OF_MOMENTS: usize = 16;
+/// (1/1.29)²
+const REACH_OF_MOMENTS: f64 = 0.6;
 /// Below it a quadratic counts as 0 where its logarithm is multiplied by 0.
 pub(super) const TINY: f64 = 1e-37;
 
@@ -151,9 +156,14 @@ impl Integrator<'_> {
 
     /// The nodes of the integrand where the interval is short, else the other form.
     fn near_or(&mut self, bowl: &Bowl, integrand: Id, degree: u32, far: Id) -> Id {
-        let near = self.local_gauss(integrand, NEAR_NODES + degree.div_ceil(2) as usize);
+        let (nodes, share) = if degree == 0 {
+            (NEAR_NODES, 0.25)
+        } else {
+            (NEAR_NODES_OF_MOMENTS, REACH_OF_MOMENTS)
+        };
+        let near = self.local_gauss(integrand, nodes + degree.div_ceil(2) as usize);
         let reach = call(self.g, Prim::Abs, bowl.reach);
-        let mut limit = scale(self.g, 0.25, bowl.q.c);
+        let mut limit = scale(self.g, share, bowl.q.c);
         if !bowl.is_sum_of_squares {
             limit = call(self.g, Prim::Abs, limit);
         }
@@ -360,7 +370,7 @@ impl Integrator<'_> {
     /// Σ p⁽ᵏ⁾(s₀)/k! ∫ σᵏ w for a power or logarithm w of q, where the interval is long.
     fn moments(&mut self, bowl: &Bowl, polynomials: &[Id], degree: u32, weight: Moments) -> Id {
         let offsets = self.offsets(bowl);
-        let coefficients = self.taylor(polynomials, degree, bowl.q.foot);
+        let coefficients = self.taylor(polynomials, degree, bowl.q.foot, bowl.q.foot_low);
         let moments = match weight {
             Moments::Power(n) => self.power_moments(bowl, offsets, n, degree),
             Moments::Log => self.log_moments(bowl, offsets, degree),
@@ -377,15 +387,16 @@ impl Integrator<'_> {
         total(self.g, parts)
     }
 
-    /// The coefficients of a product of polynomials around t.
-    pub(super) fn taylor(&mut self, polynomials: &[Id], degree: u32, t: Id) -> Vec<Id> {
+    /// The coefficients of a product of polynomials around t, which is rounded by `low`. Beside a zero of theirs that
+    /// would be most of them.
+    pub(super) fn taylor(&mut self, polynomials: &[Id], degree: u32, t: Id, low: Id) -> Vec<Id> {
         let one = self.g.real(1.0);
         let mut derivatives = vec![polynomials.iter().fold(one, |p, &q| mul(self.g, p, q))];
         for _ in 0..degree {
             let last = derivatives[derivatives.len() - 1];
             derivatives.push(self.slope(last));
         }
-        let values = self.at_place(&derivatives, t);
+        let values = self.at_pair(&derivatives, t, low);
         let mut factorial = 1.0;
         let mut out = Vec::new();
         for (k, &value) in (0_u32..).zip(&values) {

@@ -186,7 +186,7 @@ impl Integrator<'_> {
 
     /// ∫ over the whole line: √π e^(-D/a) Σ p⁽²ⁿ⁾/rate²ⁿ i²ⁿerfc 0 in the centre, i²ⁿerfc 0 = 1/(4ⁿ n!).
     pub(super) fn whole_gaussian(&mut self, q: &Quadratic, derivatives: &[Id], rate: Id) -> Id {
-        let values = self.at_place(derivatives, q.foot);
+        let values = self.at_pair(derivatives, q.foot, q.foot_low);
         let mut sum = self.g.real(0.0);
         let mut weight = PI.sqrt();
         for (n, &value) in (0_i32..).zip(&values).step_by(2) {

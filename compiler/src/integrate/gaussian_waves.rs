@@ -77,7 +77,7 @@ impl Integrator<'_> {
                 values: body.at(self.g, &place).to_vec(),
             }
         });
-        let centre = self.at_place(&derivatives, q.foot).to_vec();
+        let centre = self.at_pair(&derivatives, q.foot, q.foot_low);
         let mut sum = self.g.real(0.0);
         for wave in &waves {
             let value = match wave.wave {
@@ -238,7 +238,7 @@ impl Integrator<'_> {
             place: self.g.div(q.b, rate.rate),
             values: self.at_place(&derivatives, here).to_vec(),
         };
-        let centre = self.at_place(&derivatives, q.foot).to_vec();
+        let centre = self.at_pair(&derivatives, q.foot, q.foot_low);
         let zero = self.g.real(0.0);
         let still = self.constant_phase();
         let mut sum = zero;
@@ -279,7 +279,9 @@ impl Integrator<'_> {
             call(self.g, Prim::Exp, fall)
         });
         let [re, im] = self.mean_around_centre(shift, rate, centre);
-        let angle = self.pair_at(phase.of, q.foot);
+        let mut angle = self.pair_at(phase.of, q.foot);
+        let beside = mul(self.g, q.foot_low, phase.slope);
+        angle.rest = add(self.g, angle.rest, beside);
         let wave = self.turned(prim, angle, re, im);
         let fall = scale(self.g, -1.0, depth.rest);
         let wave = self.grown(wave, fall);

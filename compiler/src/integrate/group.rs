@@ -15,6 +15,8 @@ use crate::ir::{Id, Prim};
 
 /// What the exponents and phases of a product may change by together where it is taken as it is.
 const CHANGE: f64 = 2.0;
+/// The same where there are only waves, the sum of which cancels beside a zero of the product.
+const CHANGE_OF_WAVES: f64 = 5.0;
 /// How much more a function whose singularities are π/2 away from the real line counts.
 const WEIGHT: f64 = 4.0;
 
@@ -107,15 +109,24 @@ impl Integrator<'_> {
         let mut counted: Vec<((bool, Id), u32)> = counts.into_iter().collect();
         counted.sort_unstable();
         let rates = self.rates(&counted, &exponents);
+        let is_wave = |term: &(Term, Id)| {
+            let is_wave = |f: &Factor| matches!(f, Factor::Wave(..));
+            term.0.factors.iter().all(is_wave)
+        };
+        let most = if terms.iter().all(is_wave) {
+            CHANGE_OF_WAVES
+        } else {
+            CHANGE
+        };
         if let Some(change) = rates {
-            let limit = self.g.real(CHANGE);
+            let limit = self.g.real(most);
             conditions.push(self.g.apply(Prim::Less, &[change, limit]));
         }
         for &base in &bases {
             conditions.push(self.is_far_from_zero(base));
         }
         let least = if bases.is_empty() { 0 } else { NEAR_NODES };
-        let nodes = nodes_for_exponential(CHANGE, 0, NEAR).max(least);
+        let nodes = nodes_for_exponential(most, 0, NEAR).max(least);
         Some((conditions, nodes + degree.div_ceil(2) as usize))
     }
 

@@ -15,7 +15,7 @@ use super::path::Body;
 use crate::ir::{Id, Op, Prim};
 
 /// What an integrand has of degree 1 or 2, without what is part of something larger that has.
-enum Kind {
+pub(super) enum Kind {
     /// The polynomial itself.
     Polynomial,
     /// e to it.
@@ -27,16 +27,16 @@ enum Kind {
 }
 
 /// One of these, seen from the middle of the path.
-struct Local {
+pub(super) struct Local {
     /// The node of the integrand that it is.
-    id: Id,
-    kind: Kind,
-    middle: Pair,
+    pub(super) id: Id,
+    pub(super) kind: Kind,
+    pub(super) middle: Pair,
     /// The value, e to it, its logarithm, or its sine and cosine in the middle.
-    values: [Id; 2],
+    pub(super) values: [Id; 2],
     /// Half the curvature, and the slope in the middle.
-    curve: Id,
-    slope: Id,
+    pub(super) curve: Id,
+    pub(super) slope: Id,
 }
 
 impl Integrator<'_> {
@@ -52,19 +52,29 @@ impl Integrator<'_> {
         if !self.moves(root) {
             return root;
         }
-        // a polynomial of degree 1 alone is its value in the middle: rests would be most of what is emitted
-        let found = if self.degree(root) == Some(1) {
-            None
-        } else {
-            self.locals_of(root)
-        };
-        let Some(found) = found else {
+        match self.degree(root) {
+            Some(1) if self.may_cancel(root) => {
+                let middle = self.pair_in_middle(root);
+                return middle.total(self.g);
+            }
+            Some(1) => return self.mean(root, count),
+            Some(3..) if self.needs_pairs(root) => {
+                if let Some(mean) = self.paired_mean(root, count) {
+                    return mean;
+                }
+            }
+            _ => {}
+        }
+        let Some(found) = self.locals_of(root) else {
             return self.mean(root, count);
         };
         let locals: Vec<Local> = found
             .into_iter()
             .map(|(id, kind)| self.local(id, kind))
             .collect();
+        if let Some(mean) = self.mean_of_changes(root, &locals, count) {
+            return mean;
+        }
         let body = Body::new(self.g, &[root], locals.iter().map(|l| l.id));
         let mut sum = self.g.real(0.0);
         for Node { place, weight } in gauss_legendre(count) {

@@ -183,7 +183,7 @@ impl Integrator<'_> {
         Pair::exact(self.g, value)
     }
 
-    fn try_pair(&mut self, root: Id, values: &[(Id, Pair)]) -> Option<Pair> {
+    pub(super) fn try_pair(&mut self, root: Id, values: &[(Id, Pair)]) -> Option<Pair> {
         let mut known: FxHashMap<Id, Pair> = values.iter().copied().collect();
         for id in cone(self.g, &[root]) {
             if known.contains_key(&id) {
@@ -201,7 +201,71 @@ impl Integrator<'_> {
         known.get(&root).copied()
     }
 
-    fn pair_of_operation(&mut self, id: Id, known: &FxHashMap<Id, Pair>) -> Option<Pair> {
+    /// The same with the rests of what is constant along the path, too.
+    pub(super) fn whole_pair(&mut self, root: Id, values: &[(Id, Pair)]) -> Option<Pair> {
+        let mut known: FxHashMap<Id, Pair> = values.iter().copied().collect();
+        for id in cone(self.g, &[root]) {
+            if known.contains_key(&id) {
+                continue;
+            }
+            let pair = self.pair_of_operation(id, &known);
+            let pair = match pair {
+                None if self.moves(id) => return None,
+                None => Pair::exact(self.g, id),
+                Some(pair) => pair,
+            };
+            known.insert(id, pair);
+        }
+        known.get(&root).copied()
+    }
+
+    /// Polynomials at a place that is known with what it is rounded by, each as one number.
+    pub(super) fn at_pair(&mut self, roots: &[Id], t: Id, low: Id) -> Vec<Id> {
+        let whole = self.path.clone();
+        let values = whole.pairs_beside(self.g, t, low);
+        roots
+            .iter()
+            .map(|&root| self.pair(root, &values).total(self.g))
+            .collect()
+    }
+
+    /// The pair of an operation by those of its operands; `None` of what has none.
+    pub(super) fn pair_of_operation(
+        &mut self,
+        id: Id,
+        known: &FxHashMap<Id, Pair>,
+    ) -> Option<Pair> {
+        let node = self.g.node(id).clone();
+        if matches!(node.op, Op::Apply(Prim::Mul | Prim::PowInt(_))) && self.is_steep(id) {
+            let factors: Vec<(Id, Pair)> = node
+                .args
+                .iter()
+                .filter(|&&a| self.is_sum(a))
+                .filter_map(|&a| Some((a, *known.get(&a)?)))
+                .collect();
+            if !factors.is_empty() {
+                let mut known = known.clone();
+                for (factor, pair) in factors {
+                    let pair = pair.normalised(self.g);
+                    known.insert(factor, pair);
+                }
+                return self.pair_of_plain_operation(id, &known);
+            }
+        }
+        self.pair_of_plain_operation(id, known)
+    }
+
+    /// Whether a product may be the square of what has cancelled: other than a polynomial of degree 1 or 2.
+    fn is_steep(&mut self, id: Id) -> bool {
+        !matches!(self.degree(id), Some(0..=2))
+    }
+
+    fn is_sum(&mut self, id: Id) -> bool {
+        let is_sum = matches!(self.g.node(id).op, Op::Apply(Prim::Add | Prim::Sub));
+        is_sum && self.moves(id) && !self.is_sum_of_squares(id)
+    }
+
+    fn pair_of_plain_operation(&mut self, id: Id, known: &FxHashMap<Id, Pair>) -> Option<Pair> {
         let node = self.g.node(id).clone();
         let of = |k: usize| known.get(&node.args[k]).copied();
         let Op::Apply(prim) = node.op else {

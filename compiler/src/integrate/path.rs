@@ -3,8 +3,8 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
-use super::arithmetic::{add, if_less, is_zero, mul, mul_add, scale, sub};
-use super::pair::{Pair, mul_add_rest, sum_rest};
+use super::arithmetic::{add, if_less, is_zero, mul, mul_add, scale, sub, total};
+use super::pair::{Pair, mul_add_rest, product_rest, sum_rest};
 use crate::ir::{Binder, Graph, Id, Op, Prim};
 
 /// A coordinate that changes along the line: origin + t slope.
@@ -36,6 +36,8 @@ pub struct Path {
     pub middle_low: Id,
     /// Half the length of the interval, with its sign.
     pub half: Id,
+    /// What it is beyond [`Self::half`].
+    pub half_low: Id,
 }
 
 impl Path {
@@ -88,7 +90,13 @@ impl Path {
         let (middle, half) = (add(g, halves[0], halves[1]), sub(g, halves[1], halves[0]));
         let lows = lows.map(|low| scale(g, 0.5, low));
         let (beside, longer) = (add(g, lows[0], lows[1]), sub(g, lows[1], lows[0]));
-        let half = add(g, half, longer);
+        let back = g.neg(halves[0]);
+        let short = sum_rest(g, halves[1], back, half);
+        let (first, half) = (half, add(g, half, longer));
+        let half_low = {
+            let own = sum_rest(g, first, longer, half);
+            add(g, short, own)
+        };
         let rest = sum_rest(g, halves[0], halves[1], middle);
         for c in &mut coordinates {
             c.mid = mid(g, c, ends, middle, half);
@@ -99,6 +107,7 @@ impl Path {
             middle,
             middle_low: add(g, rest, beside),
             half,
+            half_low,
         }
     }
 
@@ -160,6 +169,26 @@ impl Path {
         self.coordinates.iter().map(at).collect()
     }
 
+    /// The coordinates at t = 0.
+    pub fn pairs_at_origin(&self) -> Vec<(Id, Pair)> {
+        let at = |c: &Coordinate| Pair {
+            value: c.origin,
+            rest: c.low,
+        };
+        self.coordinates.iter().map(|c| (c.leaf, at(c))).collect()
+    }
+
+    /// The coordinates at t with what it is rounded by.
+    pub fn pairs_beside(&self, g: &mut Graph, t: Id, low: Id) -> Vec<(Id, Pair)> {
+        let at = |c: &Coordinate| {
+            let mut pair = c.at(g, t);
+            let beside = mul(g, low, c.slope);
+            pair.rest = add(g, pair.rest, beside);
+            (c.leaf, pair)
+        };
+        self.coordinates.iter().map(at).collect()
+    }
+
     /// The coordinates at t, which is not rounded, with what they are rounded by.
     pub fn pairs(&self, g: &mut Graph, t: Id) -> Vec<(Id, Pair)> {
         let at = |c: &Coordinate| (c.leaf, c.at(g, t));
@@ -175,6 +204,33 @@ impl Path {
             (c.leaf, pair)
         };
         self.coordinates.iter().map(at).collect()
+    }
+
+    /// The coordinates at a place of the interval in [-1, 1], with what they, the place and half the interval are rounded
+    /// by.
+    pub fn pairs_at_place(&self, g: &mut Graph, place: f64) -> Vec<(Id, Pair)> {
+        let middle = self.pairs_in_middle(g);
+        if place == 0.0 {
+            return middle;
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "the rest is kept")]
+        let high = f64::from(place as f32);
+        let step = scale(g, high, self.half);
+        let high_id = g.real(high);
+        let own = product_rest(g, high_id, self.half, step);
+        let (beside, below) = (
+            scale(g, place - high, self.half),
+            scale(g, high, self.half_low),
+        );
+        let low = total(g, [own, beside, below]);
+        let at = |(c, (leaf, mid)): (&Coordinate, (Id, Pair))| {
+            let value = mul_add(g, step, c.slope, mid.value);
+            let own = mul_add_rest(g, [step, c.slope, mid.value], value);
+            let beside = mul(g, low, c.slope);
+            let rest = total(g, [own, mid.rest, beside]);
+            (leaf, Pair { value, rest })
+        };
+        self.coordinates.iter().zip(middle).map(at).collect()
     }
 
     /// The coordinates at an end, from its t and not by way of the middle.

@@ -2,9 +2,10 @@
 //!
 //! I is ∫ₐᵇ f(o + t d) dt exactly if ∂I/∂b = f(o + b d), ∂I/∂a = -f(o + a d), I(a, a) = 0, and I(a, b) + I(b, c) =
 //! I(a, c), which a jump between two branches of a rule would break. The derivatives are those of the compiler, not
-//! differences. What the simplifier does not show is evaluated in f64 on rays of every kind.
+//! differences. What normal forms do not show ([`super::symbolic`]) is evaluated in f64 on rays of every kind.
 
 use super::field::FieldIntegral;
+use super::symbolic::is_integral;
 use crate::derive::forward;
 use crate::eval::{Leaves, Tape};
 use crate::formula::Formula;
@@ -13,15 +14,15 @@ use crate::table::Number;
 
 /// How far both sides of an identity may be from one another, as a part of the greatest |f| and the mean of |f|.
 pub const PROOF_TOLERANCE: f64 = 1e-7;
-/// How many places the mean of |f| is taken of.
 /// In how many pieces an interval is cut.
 const PIECES: u8 = 16;
+/// How many places the mean of |f| is taken of.
 const PLACES: u32 = 24;
 
 /// What came of it.
 #[derive(Clone, Debug)]
 pub struct Proof {
-    /// Whether the simplifier makes ∂I/∂b and f(o + b d) the same expression.
+    /// Whether the normal form of I has the derivative f(o + b d) by b, and I(a, a) is 0: then I is the integral.
     pub is_symbolic: bool,
     /// Rays on which the identities were evaluated: where f is a finite number all along.
     pub rays: usize,
@@ -87,7 +88,8 @@ pub fn prove(of: &Formula, made: &FieldIntegral, params: &[f64]) -> Proof {
     let one = graph.real(1.0);
     let root = made.integral.value;
     let slopes = [a, b].map(|end| slope(&mut graph, root, end, one));
-    let is_symbolic = is_field_at_end(&mut graph, of, slopes[1]);
+    let field = field_at_end(&mut graph, of);
+    let is_symbolic = field.is_some_and(|field| is_integral(&graph, root, field));
     let (from, value) = of.to_compile();
     let mut sides = Sides {
         integral: Tape::new(&graph, &[root, slopes[0], slopes[1]]),
@@ -135,8 +137,8 @@ fn slope(graph: &mut crate::ir::Graph, root: Id, leaf: Id, one: Id) -> Id {
     }
 }
 
-/// Whether an expression is f(o + b d) by construction.
-fn is_field_at_end(graph: &mut crate::ir::Graph, of: &Formula, slope: Id) -> bool {
+/// f(o + b d)
+fn field_at_end(graph: &mut crate::ir::Graph, of: &Formula) -> Option<Id> {
     let (from, value) = of.to_compile();
     let leaves: Vec<Id> = (0..8).map(|k| Formula::leaf(graph, k, Ty::Real)).collect();
     let point: Vec<Id> = (0..3)
@@ -150,11 +152,7 @@ fn is_field_at_end(graph: &mut crate::ir::Graph, of: &Formula, slope: Id) -> boo
         Op::Apply(prim) => to.apply(prim, args),
         op => to.leaf(op, node.ty),
     });
-    if roots.first() == Some(&slope) {
-        return true;
-    }
-    let difference = roots.first().map(|&f| graph.sub(slope, f));
-    difference.is_some_and(|d| graph.as_real(d) == Some(0.0))
+    roots.first().copied()
 }
 
 /// The greatest and the mean |f| along a ray; `None` where f is no finite number somewhere.

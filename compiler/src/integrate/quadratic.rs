@@ -2,7 +2,7 @@
 
 use super::Integrator;
 use super::arithmetic::{add, call, div, mul, scale, square, sub, total};
-use super::pair::Pair;
+use super::pair::{Pair, mul_add_rest};
 use crate::ir::{Id, Op, Prim};
 
 /// mid + s slope, s from the middle.
@@ -39,6 +39,8 @@ pub struct Quadratic {
     pub slopes: [Id; 2],
     /// t where the slope is 0.
     pub foot: Id,
+    /// What that is beyond [`Self::foot`].
+    pub foot_low: Id,
 }
 
 /// What a polynomial of degree 2 is a sum of.
@@ -90,6 +92,7 @@ impl Integrator<'_> {
         self.path = whole.clone();
         let foot = scale(self.g, -0.5, at_origin);
         let foot = self.g.div(foot, a);
+        let foot_low = self.foot_low(id, foot);
         let discriminant = if may_cancel {
             self.discriminant_at_foot(id, a, at_origin)
         } else {
@@ -118,7 +121,27 @@ impl Integrator<'_> {
             ends,
             slopes: self.at_ends(rate).map(|s| scale(self.g, 0.5, s)),
             foot,
+            foot_low,
         }
+    }
+
+    /// What the place where the slope is 0 is beyond its rounded t: -q'(t)/q'', both with their rests.
+    fn foot_low(&mut self, id: Id, foot: Id) -> Id {
+        let slope = self.slope(id);
+        let curvature = self.slope(slope);
+        let origin = self.path.pairs_at_origin();
+        let pairs = self
+            .whole_pair(slope, &origin)
+            .zip(self.whole_pair(curvature, &origin));
+        let zero = self.g.real(0.0);
+        let Some((slope, curvature)) = pairs else {
+            return zero;
+        };
+        let left = mul_add_rest(self.g, [foot, curvature.value, slope.value], zero);
+        let beside = mul(self.g, foot, curvature.rest);
+        let left = total(self.g, [left, slope.rest, beside]);
+        let low = self.g.div(left, curvature.value);
+        self.g.neg(low)
     }
 
     /// a c - b² as a q - (q'/2)² at about the place where the slope is 0, where nothing is subtracted from the first but

@@ -155,7 +155,8 @@ impl Integrator<'_> {
         } else {
             let ratio = self.g.div(x.mid, x.slope);
             let foot = self.g.sub(self.path.middle, ratio);
-            let coefficients = self.taylor(polynomials, degree, foot);
+            let zero = self.g.real(0.0);
+            let coefficients = self.taylor(polynomials, degree, foot, zero);
             for (k, c) in (0_i32..).zip(coefficients) {
                 let power = self.g.apply(Prim::PowInt(k), &[x.slope]);
                 let c = self.g.div(c, power);

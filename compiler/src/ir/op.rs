@@ -144,6 +144,10 @@ pub enum Prim {
     SumRest,
     /// a b + c - s: by how much s, which is about that, is rounded.
     MulAddRest,
+    /// sin x - s: by how much s, which is about that, is rounded.
+    SineRest,
+    /// cos x - s: by how much s, which is about that, is rounded.
+    CosineRest,
     /// -b/a, about where a s² + 2 b s + c is least; locally constant.
     Foot,
     Log1pExp,

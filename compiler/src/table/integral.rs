@@ -298,7 +298,7 @@ fn masses() -> [Row; 4] {
 }
 
 /// Places on a line.
-fn places() -> [Row; 4] {
+fn places() -> [Row; 6] {
     [
         Row {
             prim: Prim::MulAdd,
@@ -347,6 +347,18 @@ fn places() -> [Row; 4] {
             gpu_complex: "",
             cost: weight(11),
         },
+        wave_rest(
+            Prim::SineRest,
+            "sine_rest",
+            "sin x - s, where s is the rounded sine: locally constant",
+            "real_sine_rest",
+        ),
+        wave_rest(
+            Prim::CosineRest,
+            "cosine_rest",
+            "cos x - s, where s is the rounded cosine: locally constant",
+            "real_cosine_rest",
+        ),
         Row {
             prim: Prim::Foot,
             mnemonic: "foot",
@@ -363,6 +375,24 @@ fn places() -> [Row; 4] {
             cost: weight(4),
         },
     ]
+}
+
+/// What a wave is rounded by: 0 where the format is wide.
+fn wave_rest(prim: Prim, mnemonic: &'static str, doc: &'static str, function: &'static str) -> Row {
+    Row {
+        prim,
+        mnemonic,
+        names: &[],
+        usage: "",
+        doc,
+        typing: Typing::Real(2),
+        real: Some(|_| 0.0),
+        complex: None,
+        derivative: Derivative::Zero,
+        gpu: Gpu::Library(function, None),
+        gpu_complex: "",
+        cost: weight(90),
+    }
 }
 
 /// The member of a family that a node is.

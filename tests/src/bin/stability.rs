@@ -8,9 +8,9 @@ use pullback_compiler::lower::Precision;
 use pullback_runtime::executor::Arithmetic;
 use pullback_runtime::{AdapterChoice, Gpu};
 use pullback_tests::accuracy::evaluators::Machine;
-use pullback_tests::stability::classes::CLASSES;
-use pullback_tests::stability::rays::rays;
-use pullback_tests::stability::{measure, tables};
+use pullback_tests::stability::classes::{CLASSES, Class};
+use pullback_tests::stability::rays::{Distance, rays};
+use pullback_tests::stability::{BOUND, Found, closed_form, formula, measure, operations, tables};
 
 const BEGIN: &str = "<!-- stability: `cargo run -p pullback-tests --bin stability -- --markdown docs/integrals-stability.md` -->\n";
 const END: &str = "<!-- end of the stability -->\n";
@@ -36,6 +36,9 @@ struct Options {
     /// How many roundings of the numbers of a ray are allowed to those that are not printed
     #[arg(long, default_value_t = 8.0)]
     roundings: f64,
+    /// For each printed ray, that many of the operations whose rounding changes the integral most
+    #[arg(long, default_value_t = 0)]
+    operations: usize,
     /// Print that many rays of each class for tests/oracle/integrals_stability.py, and nothing else
     #[arg(long)]
     sample: Option<usize>,
@@ -76,6 +79,9 @@ fn run(options: &Options) -> Result<(), String> {
             "{}",
             tables::unexplained(&found, options.roundings, options.worst)
         );
+        if options.operations > 0 {
+            operations(class, &found, options);
+        }
         all.push(found);
     }
     let text = format!(
@@ -90,6 +96,20 @@ fn run(options: &Options) -> Result<(), String> {
         .markdown
         .as_ref()
         .map_or(Ok(()), |path| replace(path, &text))
+}
+
+/// Tells where the worst rays of a class lose their digits.
+fn operations(class: &Class, found: &Found, options: &Options) {
+    let integral = closed_form(&formula(class.formula));
+    let mut bad: Vec<_> = found
+        .at(Distance::Near)
+        .filter(|o| o.error > BOUND)
+        .collect();
+    bad.sort_by(|a, b| b.error.total_cmp(&a.error));
+    for o in bad.into_iter().take(options.worst) {
+        let told = operations::worst(&integral, &o.ray, o.size, options.operations);
+        eprint!("    {:.1e} on {:?}:\n{told}", o.error, o.ray.numbers);
+    }
 }
 
 fn replace(path: &Path, text: &str) -> Result<(), String> {

@@ -15,14 +15,9 @@ use super::{DOUBLE, densities};
 /// Rays of each class.
 const COUNT: usize = 40;
 
-/// The classes of which more than one ray in a thousand is within the bound only with the roundings of the ray; all others
+/// The class of which more than one ray in a thousand is within the bound only with the roundings of the ray; all others
 /// have to be without.
-const WITH_ALLOWANCE: [&str; 4] = [
-    "polynomial, degree 20",
-    "products of waves",
-    "polynomial by √q",
-    "polynomial by log q",
-];
+const WITH_ALLOWANCE: [&str; 1] = ["products of waves"];
 
 fn single() -> Machine {
     Machine::Processor(Arithmetic::Ieee32, Precision::Accurate)

@@ -55,7 +55,10 @@ fn tell(out: &mut impl Write, name: &str, proof: &Proof) -> io::Result<()> {
          I(a, b) + I(b, c) = I(a, c)"
     )?;
     if proof.is_symbolic {
-        writeln!(out, "dI/db is {name}(o + b d) as an expression")?;
+        writeln!(
+            out,
+            "dI/db is {name}(o + b d) and I(a, a) is 0 as expressions, by their normal forms"
+        )?;
     }
     match proof.failure {
         None => writeln!(
