@@ -248,6 +248,25 @@ pub fn derivative(prim: Prim) -> Derivative {
     row(prim).derivative
 }
 
+/// Whether an operation that is differentiated by its operands has no derivative by the k-th one.
+#[must_use]
+pub fn is_missing(prim: Prim, k: usize) -> bool {
+    defined::is_missing(prim, k)
+}
+
+/// What an operation lacks that has no derivative, or none by some of its operands, in words.
+#[must_use]
+pub fn lacking(prim: Prim) -> &'static str {
+    match prim {
+        Prim::JacobiSn(_) | Prim::JacobiCn(_) | Prim::JacobiDn(_) => "second derivative by m",
+        Prim::GegenbauerC(_) | Prim::LaguerreL(_) => "second derivative by a",
+        Prim::Hypergeometric(_) => "second derivative by a, b, c",
+        Prim::WeierstrassP(_) => "derivative by τ",
+        Prim::WeierstrassPInvariants(_) => "derivative by g₂ or g₃",
+        _ => "derivative",
+    }
+}
+
 /// The last member of a family that there is a function for.
 pub(crate) fn last_order(prim: Prim) -> u8 {
     match prim {

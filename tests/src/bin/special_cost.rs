@@ -9,7 +9,7 @@ use clap::Parser;
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{EmitWhat, Target, compile};
 use pullback_runtime::{AdapterChoice, Error, Frame, Gpu, Pipeline, Renderer, Size};
-use pullback_tests::special::{SpecialFormula, functions_of, special_formulas};
+use pullback_tests::special::{SpecialFormula, SpecialOptions, functions_of, special_formulas};
 use pullback_tests::stills::Still;
 
 /// The marks around the table in the document.
@@ -25,18 +25,15 @@ const FRAMES: u32 = 3;
 /// Size of the module, and time from text to WGSL and of a frame, of each function that is defined in the language.
 #[derive(Parser)]
 struct Options {
-    /// `auto`, `gpu`, `software`, or part of an adapter's name; no frames are drawn without it
-    #[arg(long)]
-    adapter: Option<String>,
+    /// No frames are drawn without an adapter
+    #[command(flatten)]
+    of: SpecialOptions,
     /// Width and height of a frame of 2×2 samples a pixel
     #[arg(long, default_value = "1280x720")]
     size: String,
     /// A file whose text between the marks of the table is replaced, beside what is printed
     #[arg(long)]
     markdown: Option<PathBuf>,
-    /// Only functions whose name contains this
-    #[arg(long, default_value = "")]
-    only: String,
 }
 
 fn main() -> ExitCode {
@@ -56,12 +53,12 @@ fn invalid(reason: String) -> Error {
 fn run(options: &Options) -> Result<(), Error> {
     let size = size(&options.size)?;
     let open = |name: &String| Gpu::open(&name.parse::<AdapterChoice>().unwrap_or_default());
-    let gpu = options.adapter.as_ref().map(open).transpose()?;
+    let gpu = options.of.adapter.as_ref().map(open).transpose()?;
     let mut table = head(gpu.as_ref(), size);
     print!("{table}");
     let mut all = Vec::new();
     for formula in special_formulas() {
-        if !formula.name.contains(&options.only) {
+        if !formula.name.contains(&options.of.only) {
             continue;
         }
         let compiled = median((0..TIMES).map(|_| time(&formula)).collect());
