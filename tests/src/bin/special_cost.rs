@@ -15,6 +15,9 @@ use pullback_tests::stills::Still;
 /// The marks around the table in the document.
 const BEGIN: &str = "<!-- cost of special functions, by the command above -->\n";
 const END: &str = "<!-- end of the cost -->\n";
+/// Those around the frames alone.
+const FRAMES_BEGIN: &str = "<!-- frames of special functions, by the command above -->\n";
+const FRAMES_END: &str = "<!-- end of the frames -->\n";
 /// Turns of the compiler.
 const TIMES: usize = 9;
 /// Samples of a pixel on each axis.
@@ -31,6 +34,9 @@ struct Options {
     /// Width and height of a frame of 2×2 samples a pixel
     #[arg(long, default_value = "1280x720")]
     size: String,
+    /// Times of frames alone, in a table of their own
+    #[arg(long, requires = "adapter")]
+    frames: bool,
     /// A file whose text between the marks of the table is replaced, beside what is printed
     #[arg(long)]
     markdown: Option<PathBuf>,
@@ -54,6 +60,13 @@ fn run(options: &Options) -> Result<(), Error> {
     let size = size(&options.size)?;
     let open = |name: &String| Gpu::open(&name.parse::<AdapterChoice>().unwrap_or_default());
     let gpu = options.of.adapter.as_ref().map(open).transpose()?;
+    if let (true, Some(gpu)) = (options.frames, &gpu) {
+        let table = frames(options, gpu, size)?;
+        return match &options.markdown {
+            Some(path) => replace(path, [FRAMES_BEGIN, FRAMES_END], &table),
+            None => Ok(()),
+        };
+    }
     let mut table = head(gpu.as_ref(), size);
     print!("{table}");
     let mut all = Vec::new();
@@ -72,9 +85,27 @@ fn run(options: &Options) -> Result<(), Error> {
     print!("{last}");
     table += &last;
     match &options.markdown {
-        Some(path) => replace(path, &table),
+        Some(path) => replace(path, [BEGIN, END], &table),
         None => Ok(()),
     }
+}
+
+/// A table of frames alone, from the longest to the shortest.
+fn frames(options: &Options, gpu: &Gpu, size: Size) -> Result<String, Error> {
+    let mut rows = Vec::new();
+    for formula in special_formulas() {
+        if formula.name.contains(&options.of.only) {
+            let time = frame(&formula, gpu, size)?;
+            println!("{}: {} ms", formula.name, milliseconds(time));
+            rows.push((time, formula.name));
+        }
+    }
+    rows.sort_by_key(|row| std::cmp::Reverse(*row));
+    let mut table = "\n| function | frame, s |\n| --- | --- |\n".to_owned();
+    for (time, name) in rows {
+        table += &format!("| `{name}` | {:.2} |\n", time.as_secs_f64());
+    }
+    Ok(table)
 }
 
 fn size(text: &str) -> Result<Size, Error> {
@@ -145,7 +176,21 @@ fn frame(formula: &SpecialFormula, gpu: &Gpu, size: Size) -> Result<Duration, Er
     };
     let mut renderer = Renderer::for_settings(gpu, &still.scene, &still.settings, SAMPLES)?;
     let mut rows = Vec::new();
-    renderer.render(&frame, &mut rows)?;
+    // a software adapter compiles with its first work
+    let small = Size {
+        width: 32,
+        height: 18,
+    };
+    let first = if gpu.adapter().is_software() {
+        small
+    } else {
+        size
+    };
+    let warm = Frame {
+        size: first,
+        ..frame
+    };
+    renderer.render(&warm, &mut rows)?;
     if !gpu.adapter().is_software()
         && let Some(seconds) = renderer.device_time(&frame, FRAMES)?
     {
@@ -173,16 +218,16 @@ fn milliseconds(time: Duration) -> String {
 }
 
 /// Writes the table between the marks.
-fn replace(path: &Path, table: &str) -> Result<(), Error> {
+fn replace(path: &Path, [begin, end]: [&str; 2], table: &str) -> Result<(), Error> {
     let page = std::fs::read_to_string(path)?;
-    let between = page.split_once(BEGIN).and_then(|(before, rest)| {
-        let (_, after) = rest.split_once(END)?;
+    let between = page.split_once(begin).and_then(|(before, rest)| {
+        let (_, after) = rest.split_once(end)?;
         Some((before, after))
     });
     let (before, after) =
         between.ok_or_else(|| invalid(format!("{}: no marks of the table", path.display())))?;
     Ok(std::fs::write(
         path,
-        format!("{before}{BEGIN}{table}\n{END}{after}"),
+        format!("{before}{begin}{table}\n{end}{after}"),
     )?)
 }
