@@ -11,6 +11,7 @@ mod comparison;
 mod complex;
 mod defined;
 mod derivative;
+mod domain;
 mod elliptic;
 mod excess;
 mod exponential;
@@ -34,6 +35,7 @@ use naga::{BinaryOperator, MathFunction, UnaryOperator};
 use rustc_hash::FxHashMap;
 
 pub use bounds::{Bound, Bounds, Metric, bounds, bounds_of};
+pub use domain::outside;
 pub use excess::excess;
 pub use integral::MAX_MOMENT;
 pub use library::{Direct, Meaning, meaning};
