@@ -84,6 +84,40 @@ def sections(rng):
         yield f"hypergeometric_{k}_real", "f(x) = hypergeometric({0}, {1}, {2}, x)", f, [a, b, c], real
 
 
+def parameters(rng):
+    """The same of derivatives by parameters."""
+    ring = [complex(1.2 * mp.cos(t), 1.2 * mp.sin(t)) for t in range(6)] + [complex(0.5, y) for y in (-0.75, -0.25, 0.25, 0.8)]
+    plane = disc(3, 16, rng) + around(0, rng) + around(1, rng) + ring + [complex(x) for x in (0, 2**-20, 0.25, 0.75, 1.5, -2)] + [-40 + 9j, 300 + 2j]
+    axis = [complex(x) for x in (-100, -3, -0.9, -0.1, -1e-4, 1e-4, 0.25, 0.5, 0.75, 0.9, 0.999, 1.001, 1.25, 1.9, 6, 50)]
+    for kind in ("sn", "cn", "dn"):
+        f = lambda m, u, kind=kind: mp.ellipfun(kind, u, m=m)
+        for name, u in (("", 0.75), ("_complex", 1.5 + 0.75j), ("_far", 3.25 - 2.5j), ("_small", 2**-6)):
+            yield f"jacobi_{kind}_parameter{name}", f"f(z) = jacobi_{kind}({{0}}, z)", f, [u], plane
+        yield f"jacobi_{kind}_parameter_real", f"f(x) = jacobi_{kind}({{0}}, x)", f, [1.25], axis
+        both = lambda z, kind=kind: mp.ellipfun(kind, z, m=z / 4 + 0.5)
+        yield f"jacobi_{kind}_both", f"f(z) = jacobi_{kind}(z, z/4 + 1/2)", both, [], disc(2.5, 16, rng) + around(0, rng, (1e-2,))
+    some = disc(2.5, 12, rng) + [complex(x) for x in (-2, -1, 0, 1, 2, -1.5, 0.25)]
+    right = [z + 2.75 for z in disc(2, 14, rng)] + [complex(x) for x in (-1.5, 0.25, 1, 2, 7)]
+    line = [complex(x) for x in (-2.625, -1.25, -0.3125, 1e-4, 1e-3, 0.125, 0.5, 1, 1.75, 2, 3.75, 6)]
+    positive = [complex(x) for x in (-0.75, 0.125, 0.375, 0.5, 1, 1.625, 2, 3.75, 5.5, 9)]
+    for name, x in (("", 0.5), ("_complex", 0.25 + 0.5j), ("_left", -3), ("_turned", -0.5 + 2j)):
+        for k, (b, c) in enumerate(((0.5, 1), (2, 3.25))):
+            of = (f"_{k}" if k else "") + name
+            yield "hypergeometric_a" + of, "f(z) = hypergeometric(z, {0}, {1}, {2})", mp.hyp2f1, [b, c, x], some
+            yield "hypergeometric_b" + of, "f(z) = hypergeometric({0}, z, {1}, {2})", lambda b, a, c, x: mp.hyp2f1(a, b, c, x), [b, c, x], some
+            by_c = lambda c, a, b, x: mp.hyp2f1(a, b, c, x)
+            yield "hypergeometric_c" + of, "f(z) = hypergeometric({0}, {1}, z, {2})", by_c, [b, c, x], right
+            if complex(x).imag == 0:
+                yield f"hypergeometric_a_real{of}", "f(x) = hypergeometric(x, {0}, {1}, {2})", mp.hyp2f1, [b, c, x], line
+                yield f"hypergeometric_c_real{of}", "f(x) = hypergeometric({0}, {1}, x, {2})", by_c, [b, c, x], positive
+    for n in (1, 5, 12):
+        gegenbauer = lambda a, z, n=n: mp.fsum(mp.rf(a, n - k) * (-1) ** k / (mp.factorial(k) * mp.factorial(n - 2 * k)) * (2 * z) ** (n - 2 * k) for k in range(n // 2 + 1))
+        laguerre = lambda a, z, n=n: mp.fsum((-z) ** k / mp.factorial(k) * mp.rf(a + k + 1, n - k) / mp.factorial(n - k) for k in range(n + 1))
+        for word, f in (("gegenbauer_c", gegenbauer), ("laguerre_l", laguerre)):
+            yield f"{word}_parameter_{n}", f"f(z) = {word}({n}, z, {{0}})", f, [0.375 + 0.25j], some
+            yield f"{word}_parameter_{n}_real", f"f(x) = {word}({n}, x, {{0}})", f, [0.625], line
+
+
 def constant(c, real):
     """As the formula writes it, and exactly."""
     re, im = f32(complex(c).real), f32(complex(c).imag)
@@ -133,7 +167,7 @@ def main():
     path = sys.argv[1] if len(sys.argv) > 1 else os.path.join(here, "..", "data", "functions", "elliptic.txt")
     rng = random.Random(9)
     with open(path, "w", encoding="utf-8") as fh:
-        for section in sections(rng):
+        for section in (*sections(rng), *parameters(random.Random(10))):
             write(fh, *section)
             print(section[0], flush=True)
 

@@ -34,11 +34,54 @@ def points(box):
 SQUARE = (-3, 3, -3, 3)
 UPPER = (-0.5, 0.5, 0.2, 1.5)
 DISC = (-0.6, 0.6, -0.6, 0.6)
+CELL = (-0.5, 0.5, -0.5, 0.5)
 
 
 def klein(t):
     l = (mp.jtheta(2, 0, mp.exp(1j * mp.pi * t)) / mp.jtheta(3, 0, mp.exp(1j * mp.pi * t))) ** 4
     return 4 * (1 - l + l * l) ** 3 / (27 * (l * (1 - l)) ** 2)
+
+
+def fourth(k):
+    return lambda t: mp.jtheta(k, 0, mp.exp(1j * mp.pi * t)) ** 4
+
+
+def modular_lambda(t):
+    return fourth(2)(t) / fourth(3)(t)
+
+
+def eisenstein(weight):
+    """DLMF 23.6.2-4 with theta functions"""
+
+    def value(t):
+        a, b, c = (fourth(k)(t) for k in (2, 3, 4))
+        return (a**2 + b**2 + c**2) / 2 if weight == 4 else (a + b) * (b + c) * (c - a) / 2
+
+    return value
+
+
+def dedekind(t):
+    """Euler's product"""
+    q = mp.exp(2j * mp.pi * t)
+    return mp.exp(1j * mp.pi * t / 12) * mp.qp(q)
+
+
+def dirichlet_beta(s):
+    return 4**-s * (mp.zeta(s, mp.mpf(1) / 4) - mp.zeta(s, mp.mpf(3) / 4))
+
+
+def square_lattice(n):
+    """℘ of the lattice of 1 and i, or its derivative, DLMF 23.6.5 and 23.3.10: by theta functions."""
+    q = mp.exp(-mp.pi)
+    t2, t3, t4 = (mp.jtheta(k, 0, q) for k in (2, 3, 4))
+
+    def value(z):
+        one, two, three, four = (mp.jtheta(k, mp.pi * z, q) for k in (1, 2, 3, 4))
+        if n == 1:
+            return -2 * mp.pi**3 * (t2 * t3 * t4) ** 2 * two * three * four / one**3
+        return (mp.pi * t2 * t3 * four / one) ** 2 - mp.pi**2 / 3 * (t2**4 + t3**4)
+
+    return value
 
 
 def weierstrass(z):
@@ -126,6 +169,19 @@ FUNCTIONS = [
     ("jacobi_theta3(0.25, z)", lambda q: mp.jtheta(3, mp.mpf(1) / 4, q), None, DISC),
     ("weierstrass_p_invariants(z, 4, 0)", weierstrass, None, SQUARE),
     ("klein_j(z)", klein, None, UPPER),
+    ("modular_lambda(z)", modular_lambda, None, UPPER),
+    ("eisenstein_e4(z)", eisenstein(4), None, UPPER),
+    ("eisenstein_e6(z)", eisenstein(6), None, UPPER),
+    ("dedekind_eta(z)", dedekind, None, UPPER),
+    ("weierstrass_p(z, i)", square_lattice(0), None, CELL),
+    ("weierstrass_p_prime(z, i)", square_lattice(1), None, CELL),
+    ("jacobi_theta1(z, 0.3)", lambda z: mp.jtheta(1, z, mp.mpf(f32(0.3))), None, SQUARE),
+    ("jacobi_theta2(z, 0.3)", lambda z: mp.jtheta(2, z, mp.mpf(f32(0.3))), None, SQUARE),
+    ("jacobi_theta4(z, 0.3)", lambda z: mp.jtheta(4, z, mp.mpf(f32(0.3))), None, SQUARE),
+    ("dirichlet_beta(z)", dirichlet_beta, None, SQUARE),
+    ("li(x)", lambda x: mp.ei(mp.log(x)), lambda x: sp.expi(np.log(x)), RIGHT),
+    ("lgamma(x)", lambda x: mp.re(mp.loggamma(x)), sp.gammaln, RIGHT),
+    ("diff(jacobi_sn(0.75, z), z)", lambda m: mp.diff(lambda m: mp.ellipfun("sn", mp.mpf(3) / 4, m=m), m), None, SQUARE),
     ("hypergeometric(0.5, 0.5, 1, z)", lambda z: mp.hyp2f1(0.5, 0.5, 1, z), lambda z: sp.hyp2f1(0.5, 0.5, 1, z), DISC),
     ("legendre_p(6, x)", legendre(6), lambda x: sp.eval_legendre(6, x), UNIT),
     ("chebyshev_t(6, x)", lambda x: mp.chebyt(6, x), lambda x: sp.eval_chebyt(6, x), UNIT),

@@ -25,6 +25,8 @@ pub mod quadrature;
 pub mod same_module;
 pub mod special;
 #[cfg(feature = "gpu")]
+pub mod special_batches;
+#[cfg(feature = "gpu")]
 pub mod stability;
 #[cfg(feature = "gpu")]
 pub mod stills;

@@ -10,10 +10,11 @@ use pullback_compiler::ir::{Op, Prim, Ty};
 use pullback_compiler::lower::Precision;
 use pullback_compiler::table::{self, excess};
 use pullback_compiler::{EmitWhat, Target, compile};
-use pullback_runtime::executor::Arithmetic;
+use pullback_runtime::executor::{Arithmetic, Contraction};
 use pullback_tests::accuracy::evaluators::{Machine, suite_gpu};
 use pullback_tests::accuracy::formulas::{MOST, Table, special};
 use pullback_tests::special::{MOST_DOUBLE, MOST_EXTENDED, functions_of, special_formulas};
+use pullback_tests::special_batches::{Place, batches};
 
 /// Violations of K ≤ `most` on a machine; prints what was measured.
 fn violations(tables: &[Table], machine: &Machine, most: f64) -> Vec<String> {
@@ -58,6 +59,20 @@ fn special_functions_in_single_precision_reach_the_goal() {
         &Machine::Processor(Arithmetic::Ieee32, Precision::Accurate),
         MOST,
     );
+}
+
+/// With products fused into sums, as drivers may: those on the left, or those on the right.
+#[test]
+fn special_functions_with_fused_products_reach_the_goal() {
+    for contraction in [Contraction::Left, Contraction::Right] {
+        let place = Place::Processor(contraction);
+        let judged = batches(special())
+            .into_iter()
+            .flat_map(|batch| batch.judge(&place, Precision::Accurate));
+        let wrong = judged.filter_map(|j| Some(format!("{}: {}", j.name, j.problem?)));
+        let wrong: Vec<String> = wrong.collect();
+        assert!(wrong.is_empty(), "{place}\n{}", wrong.join("\n"));
+    }
 }
 
 #[test]

@@ -179,17 +179,35 @@ impl<'a> Builder<'a> {
             return self.report(problem);
         }
         let id = self.graph.apply(prim, ids);
-        self.warn_of_nan(prim, ids, id, span);
+        if !self.warn_of_nan(prim, ids, id, span) {
+            self.warn_of_domain(prim, ids, span);
+        }
         Value::Scalar(id)
     }
 
-    /// Warns where a constant real argument lies outside of the domain.
-    fn warn_of_nan(&mut self, prim: Prim, ids: &[Id], result: Id, span: Span) {
+    /// Warns where a constant among the arguments lies outside of the domain of a special function.
+    fn warn_of_domain(&mut self, prim: Prim, ids: &[Id], span: Span) {
+        let constant = |&id: &Id| {
+            let real = self.graph.as_real(id).map(|x| (x, 0.0));
+            real.or_else(|| self.graph.as_complex(id))
+        };
+        let constants: SmallVec<[Option<(f64, f64)>; 4]> = ids.iter().map(constant).collect();
+        if let Some(reason) = crate::table::outside(prim, &constants) {
+            let name = crate::table::row(prim).sign();
+            let message = format!("`{name}` is not a number here: {reason}");
+            let problem = Diagnostic::warning("outside-domain", span, message);
+            self.diagnostics.push(problem);
+        }
+    }
+
+    /// Warns where constant real arguments lie outside of the domain, and says whether it did.
+    fn warn_of_nan(&mut self, prim: Prim, ids: &[Id], result: Id, span: Span) -> bool {
         let constants: Option<Vec<f64>> = ids.iter().map(|&id| self.graph.as_real(id)).collect();
         let (Some(args), Some(value)) = (constants, self.graph.as_real(result)) else {
-            return;
+            return false;
         };
-        if value.is_nan() && args.iter().all(|x| !x.is_nan()) {
+        let outside = value.is_nan() && args.iter().all(|x| !x.is_nan());
+        if outside {
             let row = crate::table::row(prim);
             let name = row.sign();
             let shown: Vec<String> = args.iter().map(|&x| Numeral(x).to_string()).collect();
@@ -208,6 +226,7 @@ impl<'a> Builder<'a> {
                     problem
                 });
         }
+        outside
     }
 
     fn mismatched(&mut self, prim: Prim, args: &[Value], span: Span) -> Value {

@@ -109,6 +109,9 @@ fn tangent(
             let mut total = None;
             for (k, tangent) in tangents.iter().enumerate() {
                 let Some(tangent) = *tangent else { continue };
+                if table::is_missing(prim, k) {
+                    return Err(NoDerivative { prim });
+                }
                 let slope = partial(g, &node.args, value, k);
                 if is_zero(g, slope) {
                     continue;

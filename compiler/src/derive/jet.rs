@@ -274,6 +274,13 @@ impl Rule<'_> {
     }
 
     fn tangent(&mut self, prim: Prim) -> Result<Tangent, NoDerivative> {
+        let missing = |(k, arg): (usize, &Id)| {
+            let of = self.tangents[arg.index()];
+            table::is_missing(prim, k) && (of.dz.is_some() || of.dzbar.is_some())
+        };
+        if self.node.args.iter().enumerate().any(missing) {
+            return Err(NoDerivative { prim });
+        }
         let tangent = match table::derivative(prim) {
             Derivative::Zero => Tangent::default(),
             Derivative::Missing => return Err(NoDerivative { prim }),

@@ -157,6 +157,7 @@ fn contribution(
     Ok(match (table::derivative(prim), prim, args) {
         (Derivative::Zero, ..) => None,
         (Derivative::Missing, ..) => return Err(NoDerivative { prim }),
+        _ if table::is_missing(prim, k) => return Err(NoDerivative { prim }),
         (Derivative::Partial(partial), ..) => {
             let slope = partial(g, args, value, k);
             (!is_zero(g, slope)).then(|| g.mul(slope, adjoint))

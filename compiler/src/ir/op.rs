@@ -209,12 +209,12 @@ pub enum Prim {
     DigammaRise,
     /// Chebyshev polynomial of the first kind, of (degree, x).
     ChebyshevT,
-    /// Gegenbauer polynomial, of (degree, parameter, x).
-    GegenbauerC,
+    /// Gegenbauer polynomial, of (degree, parameter, x), or its derivative by the parameter.
+    GegenbauerC(u8),
     /// Hermite polynomial of the physicists, of (degree, x).
     HermiteH,
-    /// Generalized Laguerre polynomial, of (degree, parameter, x).
-    LaguerreL,
+    /// Generalized Laguerre polynomial, of (degree, parameter, x), or its derivative by the parameter.
+    LaguerreL(u8),
     /// The same of the lattice with invariants g₂, g₃.
     WeierstrassPInvariants(u8),
     /// The n-th derivative by z of the theta functions of Jacobi, of z and the nome.
@@ -222,14 +222,14 @@ pub enum Prim {
     JacobiTheta2(u8),
     JacobiTheta3(u8),
     JacobiTheta4(u8),
-    /// Elliptic functions of Jacobi of u and the parameter m.
-    JacobiSn,
-    JacobiCn,
-    JacobiDn,
+    /// Elliptic functions of Jacobi of u and the parameter m, or their derivatives by m.
+    JacobiSn(u8),
+    JacobiCn(u8),
+    JacobiDn(u8),
     /// The n-th derivative by s of the zeta function of Hurwitz, of s and a.
     HurwitzZeta(u8),
-    /// Gauss's hypergeometric function of a, b, c and z.
-    Hypergeometric,
+    /// Gauss's hypergeometric function of a, b, c and z: itself, its derivative by a, that by c.
+    Hypergeometric(u8),
     /// `a^(b + c)` for a whole constant c, b + c not rounded.
     PowShift,
     AtanSlope,
@@ -286,7 +286,13 @@ impl Prim {
             | Self::JacobiTheta2(n)
             | Self::JacobiTheta3(n)
             | Self::JacobiTheta4(n)
-            | Self::HurwitzZeta(n) => Some(n),
+            | Self::HurwitzZeta(n)
+            | Self::JacobiSn(n)
+            | Self::JacobiCn(n)
+            | Self::JacobiDn(n)
+            | Self::GegenbauerC(n)
+            | Self::LaguerreL(n)
+            | Self::Hypergeometric(n) => Some(n),
             _ => None,
         }
     }
@@ -316,6 +322,12 @@ impl Prim {
             Self::JacobiTheta3(_) => Self::JacobiTheta3(n),
             Self::JacobiTheta4(_) => Self::JacobiTheta4(n),
             Self::HurwitzZeta(_) => Self::HurwitzZeta(n),
+            Self::JacobiSn(_) => Self::JacobiSn(n),
+            Self::JacobiCn(_) => Self::JacobiCn(n),
+            Self::JacobiDn(_) => Self::JacobiDn(n),
+            Self::GegenbauerC(_) => Self::GegenbauerC(n),
+            Self::LaguerreL(_) => Self::LaguerreL(n),
+            Self::Hypergeometric(_) => Self::Hypergeometric(n),
             other => other,
         }
     }

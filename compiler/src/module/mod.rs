@@ -51,8 +51,9 @@ impl ModuleError {
                 "no-derivative",
                 span,
                 format!(
-                    "`{}` has no derivative rule, and a derivative is needed here",
-                    crate::table::row(missing.prim).usage
+                    "`{}` has no {}, and that is needed here",
+                    crate::table::row(missing.prim).usage,
+                    crate::table::lacking(missing.prim)
                 ),
             ),
             Self::Lower(LowerError::NoIntegral(problem)) => problem.diagnostic(span),

@@ -10,6 +10,7 @@ pub(super) type Partial = fn(&mut Graph, &[Id], Id, usize) -> Id;
 pub fn last_order(prim: Prim) -> u8 {
     match prim {
         Prim::Faddeeva(_) => 3,
+        Prim::Hypergeometric(_) => 2,
         Prim::JacobiTheta1(_)
         | Prim::JacobiTheta2(_)
         | Prim::JacobiTheta3(_)
@@ -22,8 +23,34 @@ pub fn last_order(prim: Prim) -> u8 {
 pub fn is_closed(prim: Prim) -> bool {
     matches!(
         prim,
-        Prim::WeierstrassP(_) | Prim::WeierstrassPInvariants(_)
+        Prim::WeierstrassP(_)
+            | Prim::WeierstrassPInvariants(_)
+            | Prim::JacobiSn(_)
+            | Prim::JacobiCn(_)
+            | Prim::JacobiDn(_)
+            | Prim::GegenbauerC(_)
+            | Prim::LaguerreL(_)
+            | Prim::Hypergeometric(_)
     )
+}
+
+/// Whether an operation has no derivative by its k-th operand: second derivatives by a parameter, and those of ℘ by its lattice.
+pub fn is_missing(prim: Prim, k: usize) -> bool {
+    match prim {
+        Prim::JacobiSn(1)
+        | Prim::JacobiCn(1)
+        | Prim::JacobiDn(1)
+        | Prim::GegenbauerC(1)
+        | Prim::LaguerreL(1)
+        | Prim::WeierstrassP(_)
+        | Prim::JacobiTheta1(3..)
+        | Prim::JacobiTheta2(3..)
+        | Prim::JacobiTheta3(3..)
+        | Prim::JacobiTheta4(3..) => k == 1,
+        Prim::WeierstrassPInvariants(_) => k > 0,
+        Prim::Hypergeometric(1..) => k < 3,
+        _ => false,
+    }
 }
 
 pub(super) fn order(g: &Graph, value: Id) -> u8 {

@@ -1,6 +1,6 @@
 //! Theta functions, elliptic functions, and series: their values are definitions in the language.
 
-use super::defined::{Partial, named, order, undefined};
+use super::defined::{named, order, undefined};
 use super::derivative::{call, plus, scaled, square};
 use super::{Row, Typing};
 use crate::ir::{Graph, Id, Prim};
@@ -53,9 +53,6 @@ fn theta(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     if k == 0 {
         return g.apply(prim.with_order(n + 1), args);
     }
-    if n > 2 {
-        return undefined(g);
-    }
     let curve = g.apply(prim.with_order(n + 2), args);
     let below = scaled(g, -4.0, args[1]);
     let slope = g.div(curve, below);
@@ -99,54 +96,68 @@ fn first_term(g: &mut Graph, prim: Prim, z: Id, n: u8) -> Option<Id> {
 }
 
 fn jacobi() -> [Row; 3] {
-    // DLMF 22.13.1-3
-    let row = |prim, names, usage, doc, partial: Partial| {
-        named(prim, names, usage, doc, Typing::Analytic(2), partial, 1200)
+    let row = |prim, names, usage, doc| {
+        let typing = Typing::Analytic(2);
+        named(prim, names, usage, doc, typing, jacobi_partial, 1200)
     };
     [
         row(
-            Prim::JacobiSn,
+            Prim::JacobiSn(0),
             &["jacobi_sn"],
             "jacobi_sn(u, m)",
-            "elliptic function sn of the parameter m = k²; no derivative by m",
-            |g, args, _, k| {
-                let (cn, dn) = (g.apply(Prim::JacobiCn, args), g.apply(Prim::JacobiDn, args));
-                by_argument(g, k, |g| g.mul(cn, dn))
-            },
+            "elliptic function sn of the parameter m = k²",
         ),
         row(
-            Prim::JacobiCn,
+            Prim::JacobiCn(0),
             &["jacobi_cn"],
             "jacobi_cn(u, m)",
-            "elliptic function cn of the parameter m = k²; no derivative by m",
-            |g, args, _, k| {
-                let (sn, dn) = (g.apply(Prim::JacobiSn, args), g.apply(Prim::JacobiDn, args));
-                by_argument(g, k, |g| {
-                    let product = g.mul(sn, dn);
-                    g.neg(product)
-                })
-            },
+            "elliptic function cn of the parameter m = k²",
         ),
         row(
-            Prim::JacobiDn,
+            Prim::JacobiDn(0),
             &["jacobi_dn"],
             "jacobi_dn(u, m)",
-            "elliptic function dn of the parameter m = k²; no derivative by m",
-            |g, args, _, k| {
-                let (sn, cn) = (g.apply(Prim::JacobiSn, args), g.apply(Prim::JacobiCn, args));
-                let m = args[1];
-                by_argument(g, k, |g| {
-                    let product = g.mul(sn, cn);
-                    let scaled = g.mul(m, product);
-                    g.neg(scaled)
-                })
-            },
+            "elliptic function dn of the parameter m = k²",
         ),
     ]
 }
 
-fn by_argument(g: &mut Graph, k: usize, derivative: impl FnOnce(&mut Graph) -> Id) -> Id {
-    if k == 0 { derivative(g) } else { undefined(g) }
+/// By u: cn dn, -sn dn and -m sn cn (DLMF 22.13.1-3), and of the derivative by m that of the product; by m the next member.
+fn jacobi_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
+    let (prim, n) = (member(g, value), order(g, value));
+    if k == 1 {
+        return g.apply(prim.with_order(n + 1), args);
+    }
+    let others: [fn(u8) -> Prim; 2] = match prim {
+        Prim::JacobiSn(_) => [Prim::JacobiCn, Prim::JacobiDn],
+        Prim::JacobiCn(_) => [Prim::JacobiSn, Prim::JacobiDn],
+        _ => [Prim::JacobiSn, Prim::JacobiCn],
+    };
+    let [a, b] = others.map(|other| g.apply(other(0), args));
+    let product = g.mul(a, b);
+    let is_dn = matches!(prim, Prim::JacobiDn(_));
+    let slope = if n == 0 {
+        if is_dn {
+            g.mul(args[1], product)
+        } else {
+            product
+        }
+    } else {
+        let [a_m, b_m] = others.map(|other| g.apply(other(1), args));
+        let (left, right) = (g.mul(a_m, b), g.mul(a, b_m));
+        let moved = g.add(left, right);
+        if is_dn {
+            let moved = g.mul(args[1], moved);
+            g.add(product, moved)
+        } else {
+            moved
+        }
+    };
+    if matches!(prim, Prim::JacobiSn(_)) {
+        slope
+    } else {
+        g.neg(slope)
+    }
 }
 
 fn weierstrass() -> Row {
@@ -187,25 +198,49 @@ fn series() -> [Row; 2] {
             9000,
         ),
         named(
-            Prim::Hypergeometric,
+            Prim::Hypergeometric(0),
             &["hypergeometric", "hyp2f1"],
             "hypergeometric(a, b, c, z)",
-            "Gauss's ₂F₁, where |z| or |z/(z - 1)| is below 0.97; NaN elsewhere, and where terms cancel; no derivative by a, b, c",
+            "Gauss's ₂F₁, where |z| or |z/(z - 1)| is below 0.97; NaN elsewhere, and where terms cancel",
             Typing::Analytic(4),
-            // (a b/c) F(a + 1, b + 1; c + 1; z) (DLMF 15.5.1)
-            |g, args, _, k| {
-                if k != 3 {
-                    return undefined(g);
-                }
-                let [a, b, c] = [0, 1, 2].map(|k| plus(g, args[k], 1.0));
-                let next = g.apply(Prim::Hypergeometric, &[a, b, c, args[3]]);
-                let product = g.mul(args[0], args[1]);
-                let factor = g.div(product, args[2]);
-                g.mul(factor, next)
-            },
+            hypergeometric,
             3000,
         ),
     ]
+}
+
+/// By z (a b/c) F(a + 1, b + 1; c + 1; z) (DLMF 15.5.1), and of the derivatives by parameters those of this product; by b as by a, in
+/// which F is symmetric.
+fn hypergeometric(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
+    let n = order(g, value);
+    match k {
+        0 => return g.apply(Prim::Hypergeometric(1), args),
+        1 => {
+            let turned = [args[1], args[0], args[2], args[3]];
+            return g.apply(Prim::Hypergeometric(1), &turned);
+        }
+        2 => return g.apply(Prim::Hypergeometric(2), args),
+        _ => {}
+    }
+    let [a, b, c] = [0, 1, 2].map(|k| plus(g, args[k], 1.0));
+    let above = [a, b, c, args[3]];
+    let product = g.mul(args[0], args[1]);
+    let factor = g.div(product, args[2]);
+    let slope = g.apply(Prim::Hypergeometric(n), &above);
+    let slope = g.mul(factor, slope);
+    if n == 0 {
+        return slope;
+    }
+    let next = g.apply(Prim::Hypergeometric(0), &above);
+    // the factor's own derivative: b/c, or -a b/c²
+    let own = if n == 1 {
+        g.div(args[1], args[2])
+    } else {
+        let quotient = g.div(factor, args[2]);
+        g.neg(quotient)
+    };
+    let more = g.mul(own, next);
+    g.add(slope, more)
 }
 
 /// ∂/∂a ζ(s, a) = -s ζ(s + 1, a) (DLMF 25.11.17), and its derivative by s.

@@ -11,6 +11,7 @@ mod comparison;
 mod complex;
 mod defined;
 mod derivative;
+mod domain;
 mod elliptic;
 mod excess;
 mod exponential;
@@ -34,6 +35,7 @@ use naga::{BinaryOperator, MathFunction, UnaryOperator};
 use rustc_hash::FxHashMap;
 
 pub use bounds::{Bound, Bounds, Metric, bounds, bounds_of};
+pub use domain::outside;
 pub use excess::excess;
 pub use integral::MAX_MOMENT;
 pub use library::{Direct, Meaning, meaning};
@@ -246,6 +248,25 @@ pub fn derivative(prim: Prim) -> Derivative {
         return Derivative::Missing;
     }
     row(prim).derivative
+}
+
+/// Whether an operation that is differentiated by its operands has no derivative by the k-th one.
+#[must_use]
+pub fn is_missing(prim: Prim, k: usize) -> bool {
+    defined::is_missing(prim, k)
+}
+
+/// What an operation lacks that has no derivative, or none by some of its operands, in words.
+#[must_use]
+pub fn lacking(prim: Prim) -> &'static str {
+    match prim {
+        Prim::JacobiSn(_) | Prim::JacobiCn(_) | Prim::JacobiDn(_) => "second derivative by m",
+        Prim::GegenbauerC(_) | Prim::LaguerreL(_) => "second derivative by a",
+        Prim::Hypergeometric(_) => "second derivative by a, b, c",
+        Prim::WeierstrassP(_) => "derivative by τ",
+        Prim::WeierstrassPInvariants(_) => "derivative by g₂ or g₃",
+        _ => "derivative",
+    }
 }
 
 /// The last member of a family that there is a function for.

@@ -1,6 +1,6 @@
 //! Orthogonal polynomials of a degree that is a whole number.
 
-use super::defined::{Partial, named, undefined};
+use super::defined::{Partial, named, order};
 use super::derivative::{plus, scaled};
 use super::whole::known;
 use super::{Row, Typing};
@@ -44,24 +44,32 @@ pub fn rows() -> Vec<Row> {
                 0 => g.real(0.0),
                 _ => {
                     let one = g.real(1.0);
-                    lowered(g, Prim::GegenbauerC, args[0], [one, args[1]], args[0])
+                    lowered(g, Prim::GegenbauerC(0), args[0], [one, args[1]], args[0])
                 }
             },
         ),
         row(
-            Prim::GegenbauerC,
+            Prim::GegenbauerC(0),
             &["gegenbauer_c"],
             "gegenbauer_c(n, a, z)",
-            "Gegenbauer polynomial of degree n, 0 to 50, and parameter a; no derivative by a",
+            "Gegenbauer polynomial of degree n, 0 to 50, and parameter a",
             3,
-            // 2 a C(n - 1, a + 1) (DLMF 18.9.19)
-            |g, args, _, k| match k {
+            // 2 a C(n - 1, a + 1) (DLMF 18.9.19), and of the derivative by a that of this product
+            |g, args, value, k| match k {
                 0 => g.real(0.0),
-                1 => undefined(g),
+                1 => g.apply(Prim::GegenbauerC(1), args),
                 _ => {
+                    let m = order(g, value);
                     let above = plus(g, args[1], 1.0);
                     let factor = scaled(g, 2.0, args[1]);
-                    lowered(g, Prim::GegenbauerC, args[0], [above, args[2]], factor)
+                    let rest = [above, args[2]];
+                    let slope = lowered(g, Prim::GegenbauerC(m), args[0], rest, factor);
+                    if m == 0 {
+                        return slope;
+                    }
+                    let two = g.real(2.0);
+                    let more = lowered(g, Prim::GegenbauerC(0), args[0], rest, two);
+                    g.add(slope, more)
                 }
             },
         ),
@@ -81,19 +89,20 @@ pub fn rows() -> Vec<Row> {
             },
         ),
         row(
-            Prim::LaguerreL,
+            Prim::LaguerreL(0),
             &["laguerre_l"],
             "laguerre_l(n, a, z)",
-            "generalized Laguerre polynomial of degree n, 0 to 50, and parameter a; no derivative by a",
+            "generalized Laguerre polynomial of degree n, 0 to 50, and parameter a",
             3,
             // -L(n - 1, a + 1) (DLMF 18.9.23)
-            |g, args, _, k| match k {
+            |g, args, value, k| match k {
                 0 => g.real(0.0),
-                1 => undefined(g),
+                1 => g.apply(Prim::LaguerreL(1), args),
                 _ => {
+                    let prim = Prim::LaguerreL(order(g, value));
                     let above = plus(g, args[1], 1.0);
                     let factor = g.real(-1.0);
-                    lowered(g, Prim::LaguerreL, args[0], [above, args[2]], factor)
+                    lowered(g, prim, args[0], [above, args[2]], factor)
                 }
             },
         ),

@@ -29,7 +29,7 @@ pub fn whole(prim: Prim, complex: bool) -> Option<Whole> {
         Prim::BesselJ | Prim::BesselY | Prim::BesselI | Prim::BesselK => {
             Some(first("order", -50, 50))
         }
-        Prim::ChebyshevT | Prim::GegenbauerC | Prim::HermiteH | Prim::LaguerreL => {
+        Prim::ChebyshevT | Prim::GegenbauerC(_) | Prim::HermiteH | Prim::LaguerreL(_) => {
             Some(first("degree", 0, 50))
         }
         Prim::LambertW if !complex => Some(Whole {

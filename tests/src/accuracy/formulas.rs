@@ -241,30 +241,49 @@ impl Table {
         })
     }
 
+    /// The program with its constants as parameters, and what these are: tables of one function that differ in nothing else have
+    /// one program. Orders and degrees stay constants.
+    #[must_use]
+    pub fn shared(&self) -> (String, Vec<f64>) {
+        shared(&self.source)
+    }
+
+    /// A point for each row, with these values of the program's parameters.
+    #[must_use]
+    pub fn points(&self, params: &[f64]) -> Vec<Point> {
+        let arity = self.arity().unwrap_or(0);
+        let point = |row: &Vec<&str>| Point {
+            args: row[..arity].iter().map(|c| number(c)).collect(),
+            params: params.to_vec(),
+        };
+        self.rows.iter().map(point).collect()
+    }
+
+    /// Judges what a machine made of the rows: the value and then its derivatives.
+    #[must_use]
+    pub fn judge_rows(&self, results: &[Vec<f64>], format: Format) -> Factors {
+        let mut factors = Factors::default();
+        let arity = self.arity().unwrap_or(0);
+        for (row, result) in self.rows.iter().zip(results) {
+            self.judge(row, result, result, arity, format, &mut factors);
+        }
+        factors
+    }
+
+    /// How many columns are arguments.
+    fn arity(&self) -> Option<usize> {
+        self.place("f").or_else(|| self.place("f.re"))
+    }
+
     /// [`Self::measure`] for whatever evaluates a formula, in this format.
     ///
     /// # Errors
     /// It cannot be evaluated; in words.
     pub fn measure_by(&self, format: Format, run: &mut Run) -> Result<Factors, String> {
         let (formula, params) = self.formula();
-        let arity = self
-            .place("f")
-            .or_else(|| self.place("f.re"))
-            .ok_or("no value column")?;
-        let points: Vec<Point> = self
-            .rows
-            .iter()
-            .map(|row| Point {
-                args: row[..arity].iter().map(|c| number(c)).collect(),
-                params: params.clone(),
-            })
-            .collect();
-        let complex = formula.inputs.iter().any(|i| i.ty == Type::Complex);
-        let demand = if complex {
-            What::Derivative
-        } else {
-            What::Gradient
-        };
+        let arity = self.arity().ok_or("no value column")?;
+        let points = self.points(&params);
+        let demand = demand(&formula);
         let values = run(&formula, What::Value, &points)?;
         let slopes = run(&formula, demand, &points)?;
         let mut factors = Factors::default();
@@ -332,6 +351,64 @@ impl Table {
             *slot = slot.max(factor);
         }
     }
+}
+
+/// What gives the value of a formula and its derivatives.
+#[must_use]
+pub fn demand(formula: &Formula) -> What {
+    if formula.inputs.iter().any(|i| i.ty == Type::Complex) {
+        What::Derivative
+    } else {
+        What::Gradient
+    }
+}
+
+/// Functions whose operands need not be whole numbers.
+const CONTINUOUS: [&str; 6] = [
+    "jacobi_",
+    "weierstrass_",
+    "hurwitz_",
+    "hypergeometric",
+    "euler_beta",
+    "beta(",
+];
+
+fn shared(source: &str) -> (String, Vec<f64>) {
+    let parts = source.split_once("= ");
+    let Some((head, body)) = parts.filter(|(_, body)| {
+        let inner = body.strip_prefix("diff(").unwrap_or(body);
+        CONTINUOUS.iter().any(|name| inner.starts_with(name)) && !body.contains('/')
+    }) else {
+        return (source.to_owned(), Vec::new());
+    };
+    let complex = !head.contains("real");
+    let (mut text, mut values) = (String::new(), Vec::new());
+    let (mut rest, mut inside) = (body, false);
+    while let Some(c) = rest.chars().next() {
+        let starts = text.ends_with('(') || text.ends_with(' ');
+        inside = text.ends_with("complex(") || inside && !text.ends_with(')');
+        let end = rest.find([',', ')', '(']).unwrap_or(rest.len());
+        if let Ok(value) = rest[..end].trim().parse::<f64>()
+            && starts
+        {
+            let k = values.len();
+            values.push(value);
+            text += &if complex && !inside {
+                values.push(0.0);
+                format!("complex(p{k}, p{})", k + 1)
+            } else {
+                format!("p{k}")
+            };
+            rest = &rest[end..];
+        } else {
+            text.push(c);
+            rest = &rest[c.len_utf8()..];
+        }
+    }
+    let params: String = (0..values.len())
+        .map(|k| format!("param p{k} = 0\n"))
+        .collect();
+    (format!("{params}{head}= {text}"), values)
 }
 
 /// The least K for an error; `None` for what no K allows.

@@ -7,14 +7,18 @@ use std::time::{Duration, Instant};
 
 use clap::Parser;
 use pullback_compiler::lower::Precision;
+use pullback_compiler::table;
 use pullback_compiler::{EmitWhat, Target, compile};
 use pullback_runtime::{AdapterChoice, Error, Frame, Gpu, Pipeline, Renderer, Size};
-use pullback_tests::special::{SpecialFormula, functions_of, special_formulas};
+use pullback_tests::special::{SpecialFormula, SpecialOptions, functions_of, special_formulas};
 use pullback_tests::stills::Still;
 
 /// The marks around the table in the document.
 const BEGIN: &str = "<!-- cost of special functions, by the command above -->\n";
 const END: &str = "<!-- end of the cost -->\n";
+/// Those around the frames alone.
+const FRAMES_BEGIN: &str = "<!-- frames of special functions, by the command above -->\n";
+const FRAMES_END: &str = "<!-- end of the frames -->\n";
 /// Turns of the compiler.
 const TIMES: usize = 9;
 /// Samples of a pixel on each axis.
@@ -25,18 +29,18 @@ const FRAMES: u32 = 3;
 /// Size of the module, and time from text to WGSL and of a frame, of each function that is defined in the language.
 #[derive(Parser)]
 struct Options {
-    /// `auto`, `gpu`, `software`, or part of an adapter's name; no frames are drawn without it
-    #[arg(long)]
-    adapter: Option<String>,
+    /// No frames are drawn without an adapter
+    #[command(flatten)]
+    of: SpecialOptions,
     /// Width and height of a frame of 2×2 samples a pixel
     #[arg(long, default_value = "1280x720")]
     size: String,
+    /// Times of frames alone, in a table of their own
+    #[arg(long, requires = "adapter")]
+    frames: bool,
     /// A file whose text between the marks of the table is replaced, beside what is printed
     #[arg(long)]
     markdown: Option<PathBuf>,
-    /// Only functions whose name contains this
-    #[arg(long, default_value = "")]
-    only: String,
 }
 
 fn main() -> ExitCode {
@@ -56,12 +60,19 @@ fn invalid(reason: String) -> Error {
 fn run(options: &Options) -> Result<(), Error> {
     let size = size(&options.size)?;
     let open = |name: &String| Gpu::open(&name.parse::<AdapterChoice>().unwrap_or_default());
-    let gpu = options.adapter.as_ref().map(open).transpose()?;
+    let gpu = options.of.adapter.as_ref().map(open).transpose()?;
+    if let (true, Some(gpu)) = (options.frames, &gpu) {
+        let table = frames(options, gpu, size)?;
+        return match &options.markdown {
+            Some(path) => replace(path, [FRAMES_BEGIN, FRAMES_END], &table),
+            None => Ok(()),
+        };
+    }
     let mut table = head(gpu.as_ref(), size);
     print!("{table}");
     let mut all = Vec::new();
     for formula in special_formulas() {
-        if !formula.name.contains(&options.only) {
+        if !formula.name.contains(&options.of.only) {
             continue;
         }
         let compiled = median((0..TIMES).map(|_| time(&formula)).collect());
@@ -75,9 +86,27 @@ fn run(options: &Options) -> Result<(), Error> {
     print!("{last}");
     table += &last;
     match &options.markdown {
-        Some(path) => replace(path, &table),
+        Some(path) => replace(path, [BEGIN, END], &table),
         None => Ok(()),
     }
+}
+
+/// A table of frames alone, begun with what costs the least by the operator table; where the device does not finish in its time the
+/// table says so.
+fn frames(options: &Options, gpu: &Gpu, size: Size) -> Result<String, Error> {
+    let mut formulas = special_formulas();
+    formulas.retain(|formula| formula.name.contains(&options.of.only));
+    formulas.sort_by_key(|formula| table::row(formula.prim).cost.complex);
+    let mut text = "\n| function | frame, s |\n| --- | --- |\n".to_owned();
+    for formula in formulas {
+        let row = match frame(&formula, gpu, size) {
+            Ok(time) => format!("| `{}` | {:.2} |\n", formula.name, time.as_secs_f64()),
+            Err(error) => format!("| `{}` | {error} |\n", formula.name),
+        };
+        print!("{row}");
+        text += &row;
+    }
+    Ok(text)
 }
 
 fn size(text: &str) -> Result<Size, Error> {
@@ -148,7 +177,21 @@ fn frame(formula: &SpecialFormula, gpu: &Gpu, size: Size) -> Result<Duration, Er
     };
     let mut renderer = Renderer::for_settings(gpu, &still.scene, &still.settings, SAMPLES)?;
     let mut rows = Vec::new();
-    renderer.render(&frame, &mut rows)?;
+    // a software adapter compiles with its first work
+    let small = Size {
+        width: 32,
+        height: 18,
+    };
+    let first = if gpu.adapter().is_software() {
+        small
+    } else {
+        size
+    };
+    let warm = Frame {
+        size: first,
+        ..frame
+    };
+    renderer.render(&warm, &mut rows)?;
     if !gpu.adapter().is_software()
         && let Some(seconds) = renderer.device_time(&frame, FRAMES)?
     {
@@ -176,16 +219,16 @@ fn milliseconds(time: Duration) -> String {
 }
 
 /// Writes the table between the marks.
-fn replace(path: &Path, table: &str) -> Result<(), Error> {
+fn replace(path: &Path, [begin, end]: [&str; 2], table: &str) -> Result<(), Error> {
     let page = std::fs::read_to_string(path)?;
-    let between = page.split_once(BEGIN).and_then(|(before, rest)| {
-        let (_, after) = rest.split_once(END)?;
+    let between = page.split_once(begin).and_then(|(before, rest)| {
+        let (_, after) = rest.split_once(end)?;
         Some((before, after))
     });
     let (before, after) =
         between.ok_or_else(|| invalid(format!("{}: no marks of the table", path.display())))?;
     Ok(std::fs::write(
         path,
-        format!("{before}{BEGIN}{table}\n{END}{after}"),
+        format!("{before}{begin}{table}\n{end}{after}"),
     )?)
 }

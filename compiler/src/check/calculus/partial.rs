@@ -162,7 +162,7 @@ impl Builder<'_> {
                     MAX_POLYGAMMA + 1
                 )
             } else {
-                format!("the derivative of `{name}` is not available")
+                format!("`{name}` has no {}", table::lacking(missing.prim))
             },
         )
         .with_label("cannot be differentiated");

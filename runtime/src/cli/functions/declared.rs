@@ -44,7 +44,8 @@ fn pair(bounds: &Bounds, tier: pullback_compiler::lower::Precision) -> String {
 fn special(output: &mut dyn Write) -> io::Result<()> {
     writeln!(
         output,
-        "\n## Declared errors of special functions\n\nFunctions that are defined in the language may be off by 16 u of the norm of \
+        "\n## Declared errors of special functions\n\nPictures of them, and where they are singular: \
+         [special-functions.md](special-functions.md); what they cost: [special.md](special.md).\n\nFunctions that are defined in the language may be off by 16 u of the norm of \
          the result and what changes of the arguments by 2 u\nmove, u = 2⁻²⁴, in `accurate` (10⁻⁶ of the norm); by four times that in \
          units of 2⁻⁴⁸ in `extended`, and sixteen times that in units of\n2⁻⁵³ in `double` (3 · 10⁻¹⁴ of the norm). Derivatives by four \
          times as much. The suite `special` holds them to it. `accurate` exceeds that here:\n"
