@@ -150,7 +150,7 @@ pub(super) const GLSL_SCENE: &[Judge] = &[Judge {
 /// The compiler of Chromium's WebGPU, by itself.
 pub(super) const WGSL: &[Judge] = &[Judge {
     program: "tint",
-    arguments: &["--format", "none"],
+    arguments: &["--format", "wgsl"],
     input: Input::File("code.wgsl"),
     around: ("", ""),
     taken_for: "WGSL",

@@ -164,6 +164,17 @@ impl Printer<'_> {
         self.c_helper(format!("{name}_select"), &name, &parameters, &value)
     }
 
+    /// The same for whole numbers in GLSL, whose `mix` does not take them in the versions that we write for.
+    pub(super) fn glsl_select(&self, of: CVector) -> String {
+        let (name, truths) = (of.name(), of.truths().name());
+        let helper = format!("{name}_select");
+        let text = format!(
+            "{name} {helper}({name} a, {name} b, {truths} t) {{\n    return a + (b - a) * {name}(t);\n}}\n"
+        );
+        self.helpers.borrow_mut().insert(helper.clone(), text);
+        helper
+    }
+
     /// A conversion of each component, or of its bits, by a function or a cast.
     pub(super) fn c_converted(&self, from: CVector, to: CVector, word: &str, by: &str) -> String {
         self.vectors.borrow_mut().insert(from);

@@ -420,7 +420,13 @@ impl FunctionPrinter<'_, '_> {
         }
         if is_vector && dialect.is_glsl() {
             let list = self.list(&[reject, accept, condition])?;
-            return Ok(Text::name(format!("mix({list})")));
+            let word = match self.kind(accept) {
+                ScalarKind::Sint | ScalarKind::Uint => {
+                    self.printer.glsl_select(self.c_vector(accept))
+                }
+                _ => "mix".to_owned(),
+            };
+            return Ok(Text::name(format!("{word}({list})")));
         }
         if is_vector && dialect == Dialect::C {
             let helper = self.printer.c_select(self.c_vector(accept));
