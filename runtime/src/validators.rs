@@ -5,6 +5,10 @@ use std::process::{Command, Stdio};
 
 use pullback_compiler::{EmitWhat, Target};
 
+use judges::{Input, Judge};
+
+mod judges;
+
 /// What a judge said.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
@@ -25,170 +29,41 @@ pub struct Judgement {
     pub verdict: Verdict,
 }
 
-/// How a program reads code from its standard input.
-struct Judge {
-    program: &'static str,
-    arguments: &'static [&'static str],
-    /// What is set before and behind the code, so that it is a whole program.
-    around: (&'static str, &'static str),
-    taken_for: &'static str,
-}
-
-const GLSL_MAIN: &str =
-    "\nout vec4 color_of_pixel;\nvoid main() {\n    color_of_pixel = vec4(0.0);\n}\n";
-const GLSL: &[Judge] = &[
-    Judge {
-        program: "glslangValidator",
-        arguments: &["--stdin", "-S", "frag"],
-        around: ("#version 330 core\n", GLSL_MAIN),
-        taken_for: "GLSL 3.30",
-    },
-    Judge {
-        program: "glslangValidator",
-        arguments: &["--stdin", "-S", "frag"],
-        around: (
-            "#version 300 es\nprecision highp float;\nprecision highp int;\n",
-            GLSL_MAIN,
-        ),
-        taken_for: "GLSL ES 3.00",
-    },
-];
-const SHADERTOY: &[Judge] = &[Judge {
-    program: "glslangValidator",
-    arguments: &["--stdin", "-S", "frag"],
-    around: (
-        "#version 300 es
-precision highp float;
-precision highp int;
-uniform vec3 iResolution;
-uniform float iTime;
-uniform vec4 iMouse;
-",
-        "\nout vec4 color_of_pixel;\nvoid main() {\n    mainImage(color_of_pixel, gl_FragCoord.xy);\n}\n",
-    ),
-    taken_for: "GLSL ES 3.00, with Shadertoy's uniforms",
-}];
-/// Godot's language is GLSL but for its declarations, which are rewritten, and its built-in variables, which are declared.
-const GODOT: &[Judge] = &[Judge {
-    program: "glslangValidator",
-    arguments: &["--stdin", "-S", "frag"],
-    around: (
-        "#version 330 core
-uniform float TIME;
-uniform vec2 UV;
-uniform vec2 SCREEN_UV;
-uniform mat4 MODEL_MATRIX;
-uniform mat4 INV_PROJECTION_MATRIX;
-uniform vec3 CAMERA_POSITION_WORLD;
-uniform vec3 VERTEX;
-vec3 ALBEDO;
-out vec4 COLOR;
-#define varying
-",
-        "\nvoid main() {\n    fragment();\n    COLOR.rgb += ALBEDO;\n}\n",
-    ),
-    taken_for: "GLSL with Godot's built-in variables",
-}];
-const HLSL: &[Judge] = &[Judge {
-    program: "glslangValidator",
-    arguments: &[
-        "--stdin",
-        "-D",
-        "-V",
-        "-S",
-        "frag",
-        "-e",
-        "main",
-        "-o",
-        "/dev/null",
-    ],
-    around: (
-        "",
-        "\nfloat4 main() : SV_Target {\n    return float4(0, 0, 0, 0);\n}\n",
-    ),
-    taken_for: "HLSL",
-}];
-const C: &[Judge] = &[
-    Judge {
-        program: "gcc",
-        arguments: &C_FLAGS,
-        around: ("", ""),
-        taken_for: "C11, warnings as errors",
-    },
-    Judge {
-        program: "clang",
-        arguments: &C_FLAGS,
-        around: ("", ""),
-        taken_for: "C11, warnings as errors",
-    },
-];
-const C_FLAGS: [&str; 11] = [
-    "-std=c11",
-    "-Wall",
-    "-Wextra",
-    "-Werror",
-    "-O1",
-    "-c",
-    "-o",
-    "/dev/null",
-    "-x",
-    "c",
-    "-",
-];
-const SPIRV: &[Judge] = &[Judge {
-    program: "spirv-val",
-    arguments: &["--target-env", "spv1.3", "-"],
-    around: ("", ""),
-    taken_for: "SPIR-V 1.3",
-}];
-
 /// Asks everyone who can judge code for a target. Of a language that nobody here can read, the answer is empty.
 #[must_use]
 pub fn judge(code: &[u8], target: Target, what: &[EmitWhat]) -> Vec<Judgement> {
     let text = String::from_utf8_lossy(code).into_owned();
     let is_scene = what.contains(&EmitWhat::Scene);
     match target {
-        Target::Wgsl => vec![by_naga(&text)],
-        Target::Bevy => {
-            let path = text.lines().next().unwrap_or("");
-            vec![by_naga(&text.replacen(path, "", 1))]
+        Target::Wgsl | Target::Bevy | Target::Tsl => {
+            let text = match target {
+                // the line that says how to import it is naga_oil's
+                Target::Bevy => text
+                    .split_once('\n')
+                    .map_or("", |(_, rest)| rest)
+                    .to_owned(),
+                Target::Tsl => strings(&text),
+                _ => text,
+            };
+            let mut out = vec![by_naga(&text)];
+            // numbers of 64 bits are an extension of naga's
+            if !text.contains("f64") {
+                out.extend(all(judges::WGSL, text.as_bytes()));
+            }
+            out
         }
-        Target::Tsl => vec![by_naga(&strings(&text))],
-        Target::Three => all(GLSL, strings(&text).as_bytes()),
-        Target::Glsl if is_scene => vec![ask(
-            &Judge {
-                program: "glslangValidator",
-                arguments: &["--stdin", "-S", "frag"],
-                around: ("", ""),
-                taken_for: "GLSL 4.50",
-            },
-            code,
-        )],
-        Target::Glsl => all(GLSL, code),
-        Target::Shadertoy => all(SHADERTOY, code),
-        Target::Godot => all(GODOT, plain_glsl(&text).as_bytes()),
-        Target::Hlsl if is_scene => vec![ask(
-            &Judge {
-                program: "glslangValidator",
-                arguments: &[
-                    "--stdin",
-                    "-D",
-                    "-V",
-                    "-S",
-                    "frag",
-                    "-e",
-                    "fragment_main",
-                    "-o",
-                    "/dev/null",
-                ],
-                around: ("", ""),
-                taken_for: "HLSL",
-            },
-            code,
-        )],
-        Target::Hlsl => all(HLSL, code),
-        Target::C => all(C, code),
-        Target::Spirv => all(SPIRV, code),
+        Target::Three => all(judges::GLSL, strings(&text).as_bytes()),
+        Target::Glsl if is_scene => all(judges::GLSL_SCENE, code),
+        Target::Glsl => all(judges::GLSL, code),
+        Target::Shadertoy => all(judges::SHADERTOY, code),
+        Target::Godot => all(judges::GODOT, plain_glsl(&text).as_bytes()),
+        Target::Hlsl if is_scene => all(judges::HLSL_SCENE, code),
+        Target::Hlsl => all(judges::HLSL, code),
+        // a scene has buffers and stages, which the header does not know
+        Target::Msl if is_scene => Vec::new(),
+        Target::Msl => all(judges::MSL, code),
+        Target::C => all(judges::C, code),
+        Target::Spirv => all(judges::SPIRV, code),
         _ => Vec::new(),
     }
 }
@@ -253,9 +128,33 @@ fn ask(judge: &Judge, code: &[u8]) -> Judgement {
     }
 }
 
-fn run(judge: &Judge, input: &[u8]) -> Verdict {
-    let started = Command::new(judge.program)
-        .args(judge.arguments)
+/// Starts a program and gives it the code.
+fn run(judge: &Judge, code: &[u8]) -> Verdict {
+    let Ok(folder) = tempfile::tempdir() else {
+        return Verdict::Absent;
+    };
+    let mut command = Command::new(judge.program);
+    let written = match judge.input {
+        Input::Standard => Ok(()),
+        Input::File(name) => {
+            let path = folder.path().join(name);
+            let written = std::fs::write(&path, code);
+            command.args(judge.arguments).arg(path);
+            written
+        }
+        Input::Headers(name, text) => {
+            command.arg("-I").arg(folder.path());
+            std::fs::write(folder.path().join(name), text)
+        }
+    };
+    if let Err(error) = written {
+        return Verdict::Rejected(error.to_string());
+    }
+    let is_file = matches!(judge.input, Input::File(_));
+    if !is_file {
+        command.args(judge.arguments);
+    }
+    let started = command
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -263,9 +162,11 @@ fn run(judge: &Judge, input: &[u8]) -> Verdict {
     let Ok(mut child) = started else {
         return Verdict::Absent;
     };
-    if let Some(mut stdin) = child.stdin.take() {
+    if let Some(mut stdin) = child.stdin.take()
+        && !is_file
+    {
         // a program that stops early says why on its output
-        let _ = stdin.write_all(input);
+        let _ = stdin.write_all(code);
     }
     match child.wait_with_output() {
         Ok(output) if output.status.success() => Verdict::Accepted,

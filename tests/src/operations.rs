@@ -9,6 +9,23 @@ use naga::{
 /// Operations of a function and of those that it calls.
 #[must_use]
 pub fn operations(module: &Module, info: &ModuleInfo, handle: Handle<Function>) -> usize {
+    count(module, info, handle, &|callee| {
+        operations(module, info, callee)
+    })
+}
+
+/// Operations that stand in a function itself: what it calls counts as one, as a built-in function does.
+#[must_use]
+pub fn own_operations(module: &Module, info: &ModuleInfo, handle: Handle<Function>) -> usize {
+    count(module, info, handle, &|_| 1)
+}
+
+fn count(
+    module: &Module,
+    info: &ModuleInfo,
+    handle: Handle<Function>,
+    of_call: &dyn Fn(Handle<Function>) -> usize,
+) -> usize {
     let function = &module.functions[handle];
     let about = &info[handle];
     let size = |h: Handle<Expression>| match about[h].ty.inner_with(&module.types) {
@@ -30,7 +47,7 @@ pub fn operations(module: &Module, info: &ModuleInfo, handle: Handle<Function>) 
             }
             | Expression::Select { .. } => size(h),
             Expression::Math { fun, arg, .. } => of_function(*fun, size(*arg), size(h)),
-            Expression::CallResult(callee) => operations(module, info, *callee),
+            Expression::CallResult(callee) => of_call(*callee),
             _ => 0,
         };
     }

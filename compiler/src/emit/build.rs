@@ -171,6 +171,12 @@ impl Builder<'_> {
         let mut arguments = self.inputs(part, types);
         let uses = Uses::of(part);
         let leaves = self.leaves(uses, &mut arguments, types);
+        if part.is_fixed {
+            let constant = |(name, what)| (name, format!("{what}, a constant here"));
+            arguments
+                .described
+                .extend(self.params().into_iter().map(constant));
+        }
         let (output, result, returns) = self.result(part, types, &name);
         let interface = Interface {
             declaration: Function {
@@ -189,19 +195,12 @@ impl Builder<'_> {
             wide: false,
         };
         let evaluation = &part.evaluation;
-        let mut function = lower(
+        let function = lower(
             &evaluation.graph,
             &evaluation.roots,
             interface,
             &mut self.linker,
         )?;
-        if emission.params == ParamsAs::Constants && uses.params {
-            let first = match leaves {
-                Leaves::Arguments { params, .. } => params,
-                _ => 0,
-            };
-            super::constants::fix(&mut function, first, self.program);
-        }
         Ok(Built {
             what: part.what,
             handle: self.linker.append(function),
@@ -239,15 +238,14 @@ impl Builder<'_> {
 
     /// Where parameters, clock and footprint are, with the arguments that hold them.
     fn leaves(&mut self, uses: Uses, arguments: &mut Arguments, types: NagaTypes) -> Leaves {
-        if self.emission.params == ParamsAs::Uniform {
+        // a structure of nothing is none
+        if self.emission.params == ParamsAs::Uniform && self.uses.any() {
             return self.structured(uses, arguments, types);
         }
         let params = u32::try_from(arguments.list.len()).unwrap_or(u32::MAX);
         if uses.params {
-            let fixed = self.emission.params == ParamsAs::Constants;
             for (name, described) in self.params() {
-                let fixed = if fixed { ", a constant here" } else { "" };
-                arguments.add(name, types.real, described + fixed);
+                arguments.add(name, types.real, described);
             }
         }
         let (mut time, mut pixel) = (0, 0);

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use super::Target;
 use super::build::Built;
 use super::parts::Part;
 use super::request::Emission;
@@ -40,6 +41,9 @@ pub(super) fn header(
     let _ = writeln!(out, "error: {}", errors(emission.precision, parts));
     for remark in domain(parts) {
         let _ = writeln!(out, "domain: {remark}");
+    }
+    if emission.target == Target::C {
+        out.push_str("compile with: -std=c11 -ffp-contract=off -lm, and without -ffast-math\n");
     }
     if let Some(command) = &emission.command {
         let _ = writeln!(out, "made by: {command}");

@@ -143,8 +143,9 @@ impl Program {
         emission: &Emission,
     ) -> Result<(Vec<Part>, BuiltModule), ModuleError> {
         let wanted = emission.parts.iter().copied();
+        let values = (emission.params == ParamsAs::Constants).then(|| self.params());
         let parts: Vec<Part> = wanted
-            .map(|what| parts::part(picture, what))
+            .map(|what| parts::part(picture, what, values))
             .collect::<Result<_, _>>()?;
         let built = build::build(self, &parts, emission)?;
         Ok((parts, built))

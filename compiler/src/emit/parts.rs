@@ -2,6 +2,7 @@
 
 use smallvec::smallvec;
 
+use super::constants::fixed;
 use super::request::EmitWhat;
 use crate::derive::forward;
 use crate::formula::{Formula, Input, column_names};
@@ -9,7 +10,7 @@ use crate::integrate::{Otherwise, field_integral};
 use crate::ir::{Op, Prim, Ty};
 use crate::lower::LowerError;
 use crate::module::{Evaluation, ModuleError, What, stable_evaluation};
-use crate::program::Picture;
+use crate::program::{ParamInfo, Picture};
 use crate::stable::finish;
 use crate::types::Type;
 
@@ -23,11 +24,26 @@ pub(super) struct Part {
     pub(super) values: usize,
     /// A remark on how it is computed.
     pub(super) remark: String,
+    /// Whether parameters of the program have become constants in it.
+    pub(super) is_fixed: bool,
 }
 
-/// Derives what a part computes.
-pub(super) fn part(picture: &Picture, what: EmitWhat) -> Result<Part, ModuleError> {
-    let formula = &picture.formula;
+/// Derives what a part computes, of the formula for the parameters' values where those are given.
+pub(super) fn part(
+    picture: &Picture,
+    what: EmitWhat,
+    values: Option<&[ParamInfo]>,
+) -> Result<Part, ModuleError> {
+    match values.and_then(|values| fixed(&picture.formula, values)) {
+        Some(formula) => Ok(Part {
+            is_fixed: true,
+            ..of_formula(&formula, what)?
+        }),
+        None => of_formula(&picture.formula, what),
+    }
+}
+
+fn of_formula(formula: &Formula, what: EmitWhat) -> Result<Part, ModuleError> {
     let mut out = match what {
         EmitWhat::Integral | EmitWhat::Transmittance | EmitWhat::Opacity => {
             integral(formula, what)?
@@ -46,6 +62,7 @@ pub(super) fn part(picture: &Picture, what: EmitWhat) -> Result<Part, ModuleErro
                 evaluation: stable_evaluation(formula, asked)?,
                 values: formula.value.len(),
                 remark: String::new(),
+                is_fixed: false,
             }
         }
     };
@@ -109,6 +126,7 @@ fn directional(formula: &Formula) -> Result<Part, ModuleError> {
         },
         values,
         remark: String::new(),
+        is_fixed: false,
     })
 }
 
@@ -133,6 +151,7 @@ fn integral(formula: &Formula, what: EmitWhat) -> Result<Part, ModuleError> {
         values: formula.value.len(),
         remark: format!("{of} along o + t d from t = a to t = b, {how}"),
         formula,
+        is_fixed: false,
     })
 }
 

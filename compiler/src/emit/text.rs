@@ -99,6 +99,18 @@ impl Target {
     }
 }
 
+/// What stands before the code in C. GCC knows the pragma as an option only, and warns of it.
+const C_HEAD: &str = "
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#if !defined(__GNUC__) || defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#endif
+";
+
 /// The functions of a module as text, with what is said of them in front.
 pub(super) fn functions(
     emission: &Emission,
@@ -133,9 +145,7 @@ pub(super) fn functions(
     let head = header(emission, parts, &built.functions, &signatures);
     let mut text = comment(&head, "//");
     text.push_str(match target {
-        Target::C => {
-            "\n#include <math.h>\n#include <stdbool.h>\n#include <stdint.h>\n#include <stdlib.h>\n"
-        }
+        Target::C => C_HEAD,
         Target::Msl => "\n#include <metal_stdlib>\nusing namespace metal;\n",
         _ => "",
     });

@@ -1,13 +1,18 @@
 //! What is emitted: valid in every shading language, with the user's names, and only what is asked for.
 
+mod browser;
 mod bytes;
 mod chromium;
 mod demand;
+mod generated;
+mod godot;
+mod jobs;
 mod languages;
 mod names;
 mod plane;
 mod readable;
 mod same;
+mod three;
 mod validators;
 mod values;
 

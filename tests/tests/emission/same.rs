@@ -1,13 +1,9 @@
 //! What is printed as WGSL is the module that was built: parsed again, it does the same.
 
-#[path = "../support/formulas.rs"]
-mod formulas;
-
 use std::collections::HashMap;
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{Function, Handle, Module};
-use proptest::prelude::*;
 use pullback_compiler::emit::print::{Dialect, print};
 use pullback_compiler::emit::restore_operators;
 use pullback_compiler::lower::Precision;
@@ -18,7 +14,7 @@ use pullback_tests::same_module::{Side, Values, trace};
 use crate::program;
 
 /// Prints a module, parses the text, and compares function by function.
-fn check_module(name: &str, module: &Module) -> Result<(), String> {
+pub fn check_module(name: &str, module: &Module) -> Result<(), String> {
     let validate = |module: &Module| {
         Validator::new(ValidationFlags::all(), Capabilities::default())
             .validate(module)
@@ -113,28 +109,5 @@ fn the_gallery_in_pairs_and_with_built_ins_reads_back() {
         let emission = Emission::new(EmitWhat::Value, Target::Wgsl).precision(Precision::Extended);
         let module = program.emitted_module(&emission).expect("a value");
         check_module(&source.name, &module).unwrap_or_else(|e| panic!("{}: {e}", source.name));
-    }
-}
-
-/// How many random programs are printed and read; more with PROGRAMS in the environment.
-fn count() -> usize {
-    let asked = std::env::var("PROGRAMS").ok();
-    asked.and_then(|n| n.parse().ok()).unwrap_or(1000)
-}
-
-#[test]
-fn generated_programs_read_back() {
-    use formulas::{any_real, samples, smooth};
-    let bodies = samples(count(), &prop_oneof![smooth(), any_real()]);
-    for (k, body) in bodies.into_iter().enumerate() {
-        let text = format!("f(x, y) = {body}");
-        let program = program(&text, &text);
-        let what = [EmitWhat::Value, EmitWhat::Gradient][k % 2];
-        let precision = [Precision::Fast, Precision::Accurate][usize::from(k % 10 == 0)];
-        let emission = Emission::new(what, Target::Wgsl).precision(precision);
-        let module = program
-            .emitted_module(&emission)
-            .unwrap_or_else(|e| panic!("{text}: {e:?}"));
-        check_module(&text, &module).unwrap_or_else(|e| panic!("{text}: {e}"));
     }
 }

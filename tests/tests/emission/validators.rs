@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use pullback_compiler::lower::Precision;
 use pullback_compiler::{Emission, EmitWhat, ParamsAs, Program, Target};
 use pullback_runtime::validators::{Verdict, judge};
 use pullback_tests::corpus::gallery;
@@ -89,6 +90,30 @@ fn the_gallery_for_every_target_is_accepted() {
         counts.values().any(|[accepted, _]| *accepted > 50),
         "{counts:?}"
     );
+}
+
+#[test]
+fn pairs_for_every_target_are_accepted() {
+    let mut counts = BTreeMap::new();
+    let texts = [
+        "f(x, y) = sin(1000 x) y + x^y",
+        "f(x, y) = gamma(x) + mod(y, 0.7) + |x|",
+        "f(z) = log(z) + z^(2 + i)",
+        "f(x, y) = sum(j in 1..8, sin(j x)/j) - floor(y)",
+        "f(p: vec3) = |p| + exp(-p.x²) p.y",
+    ];
+    for text in texts {
+        let program = program(text, text);
+        let all = all_parts(&program, false).expect("a part");
+        for target in Target::ALL {
+            let mut emission = all.clone().precision(Precision::Extended);
+            emission.target = target;
+            let emitted = program.emit_all(&emission);
+            assert!(emitted.is_ok(), "{text} for {}: {emitted:?}", target.name());
+            check(text, &program, &emission, &mut counts);
+        }
+    }
+    tell(&counts);
 }
 
 #[test]

@@ -79,10 +79,11 @@ pub(super) fn emitted(
         emission.parts = vec![of.part()];
         kind = Some(of);
     }
+    let values = (emission.params == ParamsAs::Constants).then(|| program.params());
     let parts: Vec<Part> = emission
         .parts
         .iter()
-        .map(|&what| part(picture, what))
+        .map(|&what| part(picture, what, values))
         .collect::<Result<_, _>>()?;
     let built = build(program, &parts, &emission)?;
     let printed = printed(&built, emission.target.dialect(), &emission)?;

@@ -57,8 +57,7 @@ impl Dialect {
             Self::Wgsl if letter == "b" => format!("vec{n}<bool>"),
             Self::Wgsl => format!("vec{n}{letter}"),
             Self::Glsl | Self::Godot | Self::C if letter == "f" => format!("vec{n}"),
-            Self::Glsl | Self::Godot => format!("{letter}vec{n}"),
-            Self::C => return Err("vectors of integers".to_owned()),
+            Self::Glsl | Self::Godot | Self::C => format!("{letter}vec{n}"),
             Self::Hlsl | Self::Msl => format!("{word}{n}"),
         })
     }

@@ -5,6 +5,7 @@ use naga::{
     UnaryOperator,
 };
 
+use super::c_vectors::CVector;
 use super::dialect::Dialect;
 use super::flow::FunctionPrinter;
 
@@ -68,6 +69,11 @@ impl FunctionPrinter<'_, '_> {
         }
     }
 
+    /// The type of a vector in C.
+    pub(super) fn c_vector(&self, handle: Handle<Expression>) -> CVector {
+        CVector::new(self.kind(handle), self.size(handle))
+    }
+
     /// The value as it is used in other expressions: its name, or what it is.
     pub(super) fn value(&self, handle: Handle<Expression>) -> Made {
         if self.plan.named[handle.index()] {
@@ -117,7 +123,13 @@ impl FunctionPrinter<'_, '_> {
                     Dialect::Hlsl => value.within(rank::SIGN),
                     _ => value.text,
                 };
-                Ok(Text::name(self.printer.splat(&name, size as usize, &value)))
+                let of = self.c_vector(handle);
+                Ok(Text::name(self.printer.splat(
+                    &name,
+                    of,
+                    size as usize,
+                    &value,
+                )))
             }
             Expression::Swizzle {
                 size,
@@ -129,7 +141,7 @@ impl FunctionPrinter<'_, '_> {
                     .map(|c| ['x', 'y', 'z', 'w'][*c as usize])
                     .collect();
                 if dialect == Dialect::C {
-                    let helper = self.printer.c_swizzle(self.size(vector), &letters);
+                    let helper = self.printer.c_swizzle(self.c_vector(vector), &letters);
                     return Ok(Text::name(format!(
                         "{helper}({})",
                         self.value(vector)?.text
@@ -257,7 +269,8 @@ impl FunctionPrinter<'_, '_> {
             let sizes: Vec<usize> = components.iter().map(|&c| self.size(c)).collect();
             printer.type_name(ty)?;
             if sizes.iter().any(|&s| s > 1) {
-                let helper = printer.c_joined(&sizes);
+                let of = CVector::new(self.kind(components[0]), sizes.iter().sum());
+                let helper = printer.c_joined(of, &sizes);
                 return Ok(Text::name(format!("{helper}({})", parts.join(", "))));
             }
         }
@@ -267,15 +280,15 @@ impl FunctionPrinter<'_, '_> {
     fn unary(&self, op: UnaryOperator, expr: Handle<Expression>) -> Made {
         let size = self.size(expr);
         let value = self.value(expr)?;
-        if self.printer.dialect == Dialect::C && size > 1 {
-            let helper = self.printer.c_negated(size);
-            return Ok(Text::name(format!("{helper}({})", value.text)));
-        }
         let sign = match op {
             UnaryOperator::Negate => "-",
             UnaryOperator::LogicalNot => "!",
             UnaryOperator::BitwiseNot => "~",
         };
+        if self.printer.dialect == Dialect::C && size > 1 {
+            let helper = self.printer.c_signed(self.c_vector(expr), sign);
+            return Ok(Text::name(format!("{helper}({})", value.text)));
+        }
         let operand = value.within(rank::SIGN);
         let text = if operand.starts_with(sign) {
             format!("{sign}({operand})")
@@ -301,6 +314,13 @@ impl FunctionPrinter<'_, '_> {
         }
         if dialect.is_glsl() && self.size(left) > 1 && matches!(op, BinaryOperator::Modulo) {
             return Err("the remainder of vectors".to_owned());
+        }
+        if dialect.is_glsl()
+            && self.size(left) > 1
+            && let Some(word) = comparison(sign)
+        {
+            let list = self.list(&[left, right])?;
+            return Ok(Text::name(format!("{word}({list})")));
         }
         let (least_left, least_right, rank) = ranks(sign);
         let (left, right) = if matches!(sign, "+" | "-" | "*" | "/") {
@@ -365,19 +385,23 @@ impl FunctionPrinter<'_, '_> {
 
     fn c_operation(&self, sign: &str, left: Handle<Expression>, right: Handle<Expression>) -> Made {
         let printer = self.printer;
-        let size = self.size(left).max(self.size(right));
+        let of = match self.size(left) {
+            1 => self.c_vector(right),
+            _ => self.c_vector(left),
+        };
         let number = |handle: Handle<Expression>| match self.function.expressions[handle] {
             Expression::Splat { value, .. } if !self.plan.named[handle.index()] => Some(value),
             _ if self.size(handle) == 1 => Some(handle),
             _ => None,
         };
         let none = || format!("`{sign}` of vectors");
-        let (helper, a, b) = match (number(left), number(right)) {
-            (None, Some(s)) => (printer.c_scaled(size, sign), left, s),
-            (Some(s), None) if sign == "*" => (printer.c_scaled(size, sign), right, s),
-            _ => (printer.c_binary(size, sign), left, right),
+        let scaled = match (number(left), number(right)) {
+            (None, Some(s)) => printer.c_scaled(of, sign).map(|h| (h, left, s)),
+            (Some(s), None) if sign == "*" => printer.c_scaled(of, sign).map(|h| (h, right, s)),
+            _ => None,
         };
-        let helper = helper.ok_or_else(none)?;
+        let both = || printer.c_binary(of, sign).map(|h| (h, left, right));
+        let (helper, a, b) = scaled.or_else(both).ok_or_else(none)?;
         let (a, b) = (self.value(a)?.text, self.value(b)?.text);
         Ok(Text::name(format!("{helper}({a}, {b})")))
     }
@@ -396,10 +420,18 @@ impl FunctionPrinter<'_, '_> {
         }
         if is_vector && dialect.is_glsl() {
             let list = self.list(&[reject, accept, condition])?;
-            return Ok(Text::name(format!("mix({list})")));
+            let word = match self.kind(accept) {
+                ScalarKind::Sint | ScalarKind::Uint => {
+                    self.printer.glsl_select(self.c_vector(accept))
+                }
+                _ => "mix".to_owned(),
+            };
+            return Ok(Text::name(format!("{word}({list})")));
         }
         if is_vector && dialect == Dialect::C {
-            return Err("a choice by components".to_owned());
+            let helper = self.printer.c_select(self.c_vector(accept));
+            let list = self.list(&[reject, accept, condition])?;
+            return Ok(Text::name(format!("{helper}({list})")));
         }
         let condition = self.value(condition)?.within(rank::OR);
         let accept = self.value(accept)?.within(rank::OR);
@@ -409,6 +441,19 @@ impl FunctionPrinter<'_, '_> {
             rank: rank::CHOICE,
         })
     }
+}
+
+/// The function by which GLSL compares vectors.
+fn comparison(sign: &str) -> Option<&'static str> {
+    Some(match sign {
+        "<" => "lessThan",
+        "<=" => "lessThanEqual",
+        ">" => "greaterThan",
+        ">=" => "greaterThanEqual",
+        "==" => "equal",
+        "!=" => "notEqual",
+        _ => return None,
+    })
 }
 
 /// Whether all operators outside of brackets are this one.

@@ -10,7 +10,8 @@ pub(super) fn wrap(line: &str, level: usize) -> String {
     let mut indent = 4 * level;
     let inner = 4 * (level + 1);
     while indent + rest.chars().count() > WIDTH {
-        let Some(cut) = best_break(rest, WIDTH - indent) else {
+        let room = WIDTH - indent;
+        let Some(cut) = best_break(rest, room).or_else(|| bracket(rest, room)) else {
             break;
         };
         out.extend(std::iter::repeat_n(' ', indent));
@@ -25,8 +26,13 @@ pub(super) fn wrap(line: &str, level: usize) -> String {
     out
 }
 
-/// Where to break: the last of the outermost places among those that fit, behind a comma or an opening bracket, or before an
-/// operator.
+/// Behind an opening bracket, the first that leaves no short line: for calls within calls, without a better place.
+fn bracket(line: &str, room: usize) -> Option<usize> {
+    let mut all = line.match_indices('(').map(|(at, _)| at + 1);
+    all.find(|at| (room / 4..room).contains(at))
+}
+
+/// Where to break: the last of the outermost places among those that fit, behind a comma or before an operator.
 fn best_break(line: &str, room: usize) -> Option<usize> {
     let bytes = line.as_bytes();
     let mut depth = 0_usize;

@@ -2,6 +2,7 @@
 
 use naga::{Expression, Handle, MathFunction, Scalar, ScalarKind, TypeInner};
 
+use super::c_vectors::CVector;
 use super::dialect::Dialect;
 use super::expression::{Text, rank};
 use super::flow::FunctionPrinter;
@@ -16,7 +17,7 @@ impl FunctionPrinter<'_, '_> {
         let scalar = self.inner(first).scalar().unwrap_or(Scalar::F32);
         if dialect == Dialect::C && arguments.iter().any(|&a| self.size(a) > 1) {
             let word = format!("{fun:?}").to_lowercase();
-            let helper = printer.c_vector_function(self.size(first), &word);
+            let helper = printer.c_vector_function(self.c_vector(first), &word);
             let helper = helper.ok_or_else(|| format!("`{word}` of vectors"))?;
             return Ok(Text::name(format!("{helper}({})", self.list(arguments)?)));
         }
@@ -111,8 +112,11 @@ impl FunctionPrinter<'_, '_> {
         let name = self.printer.inner_name(self.inner(handle), None)?;
         let value = self.value(expr)?;
         if dialect == Dialect::C {
-            let is_vector = matches!(self.inner(handle), TypeInner::Vector { .. });
-            return self.c_cast(&name, from, to, value, converts, is_vector);
+            if matches!(self.inner(handle), TypeInner::Vector { .. }) {
+                let vectors = [self.c_vector(expr), self.c_vector(handle)];
+                return self.c_vector_cast(vectors, [from.kind, to.kind], value, converts);
+            }
+            return self.c_cast(&name, from, to, value, converts);
         }
         let between_integers = from.kind != ScalarKind::Float && to.kind != ScalarKind::Float;
         let text = match dialect {
@@ -147,19 +151,8 @@ impl FunctionPrinter<'_, '_> {
         Ok(Text::name(text))
     }
 
-    fn c_cast(
-        &self,
-        name: &str,
-        from: Scalar,
-        to: Scalar,
-        value: Text,
-        converts: bool,
-        is_vector: bool,
-    ) -> Made {
+    fn c_cast(&self, name: &str, from: Scalar, to: Scalar, value: Text, converts: bool) -> Made {
         use ScalarKind::{Bool, Float, Sint, Uint};
-        if is_vector {
-            return Err("conversions of vectors".to_owned());
-        }
         let helper = match (from.kind, to.kind, converts) {
             (Float, Sint, true) => "int_of_float",
             (Float, Uint, true) => "uint_of_float",
@@ -180,6 +173,30 @@ impl FunctionPrinter<'_, '_> {
             }
         };
         let helper = self.printer.helper(helper)?;
+        Ok(Text::name(format!("{helper}({})", value.text)))
+    }
+
+    /// A conversion of each component.
+    fn c_vector_cast(
+        &self,
+        [from, to]: [CVector; 2],
+        kinds: [ScalarKind; 2],
+        value: Text,
+        converts: bool,
+    ) -> Made {
+        use ScalarKind::{Float, Sint, Uint};
+        let printer = self.printer;
+        let (word, by) = match (kinds, converts) {
+            ([Float, Uint], false) => ("bits", printer.helper("bits_of_float")?),
+            ([Uint, Float], false) => ("of_bits", printer.helper("float_of_bits")?),
+            ([Float, Sint], true) => ("of", printer.helper("int_of_float")?),
+            ([Float, Uint], true) => ("of", printer.helper("uint_of_float")?),
+            ([Sint | Uint, Float], true) => ("of", "(float)".to_owned()),
+            ([Sint, Uint], _) => ("of", "(uint32_t)".to_owned()),
+            ([Uint, Sint], _) => ("of", "(int32_t)".to_owned()),
+            _ => return Err("this conversion of vectors".to_owned()),
+        };
+        let helper = printer.c_converted(from, to, word, &by);
         Ok(Text::name(format!("{helper}({})", value.text)))
     }
 }

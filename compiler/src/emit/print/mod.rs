@@ -4,6 +4,7 @@
 //! that count are `for`, brackets stand only where they must. What WGSL this prints is the module again, up to names: a test
 //! parses it.
 
+mod c_vectors;
 mod dialect;
 mod expression;
 mod flow;
@@ -27,6 +28,7 @@ use naga::valid::ModuleInfo;
 use naga::{Constant, Function, GlobalVariable, Handle, Module, Type};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use c_vectors::CVector;
 use flow::FunctionPrinter;
 use names::Names;
 
@@ -132,8 +134,8 @@ struct Printer<'m> {
     used_types: RefCell<BTreeSet<Handle<Type>>>,
     used_constants: RefCell<BTreeSet<Handle<Constant>>>,
     used_globals: RefCell<BTreeSet<Handle<GlobalVariable>>>,
-    /// Which sizes of vectors C needs.
-    vectors: RefCell<BTreeSet<u8>>,
+    /// Which types of vectors C needs.
+    vectors: RefCell<BTreeSet<CVector>>,
 }
 
 impl<'m> Printer<'m> {
@@ -251,9 +253,8 @@ impl<'m> Printer<'m> {
         }
         let structs = self.structures()?;
         if self.dialect == Dialect::C {
-            for size in self.vectors.borrow().iter() {
-                out.head.push(helpers::c_vector(*size));
-            }
+            let vectors = self.vectors.borrow();
+            out.head.extend(vectors.iter().map(|v| v.declaration()));
         }
         out.head.extend(structs);
         if !constants.is_empty() {

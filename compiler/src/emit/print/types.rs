@@ -6,6 +6,7 @@ use naga::{
 };
 
 use super::Printer;
+use super::c_vectors::CVector;
 use super::dialect::Dialect;
 use super::layout;
 
@@ -23,7 +24,8 @@ impl Printer<'_> {
         match *inner {
             TypeInner::Scalar(scalar) => Ok(self.dialect.scalar(scalar)?.to_owned()),
             TypeInner::Vector { size, scalar } => {
-                self.vectors.borrow_mut().insert(size as u8);
+                let vector = CVector::new(scalar.kind, size as usize);
+                self.vectors.borrow_mut().insert(vector);
                 self.dialect.vector(size, scalar)
             }
             TypeInner::Struct { .. } => {
@@ -150,7 +152,8 @@ impl Printer<'_> {
                 let value = self.constant_value(value)?;
                 let parts = vec![value; size as usize];
                 let name = self.dialect.vector(size, Scalar::F32)?;
-                self.vectors.borrow_mut().insert(size as u8);
+                let vector = CVector::new(ScalarKind::Float, size as usize);
+                self.vectors.borrow_mut().insert(vector);
                 Ok(self.made(&name, &parts))
             }
             Expression::Compose { ty, ref components } => {
@@ -188,7 +191,8 @@ impl Printer<'_> {
             TypeInner::Vector { size, scalar } => {
                 let name = self.type_name(handle)?;
                 let zero = self.zero_scalar(*scalar);
-                Ok(self.splat(&name, *size as usize, &zero))
+                let vector = CVector::new(scalar.kind, *size as usize);
+                Ok(self.splat(&name, vector, *size as usize, &zero))
             }
             TypeInner::Struct { .. } if self.dialect == Dialect::Wgsl => {
                 Ok(format!("{}()", self.type_name(handle)?))
@@ -221,7 +225,7 @@ impl Printer<'_> {
     }
 
     /// A vector of equal components.
-    pub(super) fn splat(&self, name: &str, size: usize, value: &str) -> String {
+    pub(super) fn splat(&self, name: &str, of: CVector, size: usize, value: &str) -> String {
         match self.dialect {
             Dialect::Hlsl => format!("(({name}){value})"),
             Dialect::C
@@ -231,7 +235,7 @@ impl Printer<'_> {
             {
                 self.made(name, &vec![value.to_owned(); size])
             }
-            Dialect::C => format!("{}({value})", self.c_splat(size)),
+            Dialect::C => format!("{}({value})", self.c_splat(of)),
             _ => format!("{name}({value})"),
         }
     }
