@@ -1,8 +1,13 @@
 //! `pullback bench`: what programs cost, from their text to their picture, and whether that has changed.
 
 mod base;
+mod compared;
 mod dots;
+mod large;
+mod parts;
 mod peers;
+mod programs;
+mod report;
 mod table;
 mod tables;
 mod tiers;
@@ -54,13 +59,13 @@ pub(super) struct BenchArguments {
     /// With --compare, fail where something is slower by more than so many percent beyond doubt
     #[arg(long, value_name = "PERCENT", requires = "compare", value_parser = positive)]
     fail_above: Option<f64>,
-    /// Write the tables of the documentation for this adapter, with their charts, into a folder instead; what is there goes on
-    /// where it ended
+    /// Write the tables of the documentation for this adapter, with their charts and all of them on one page, into a folder
+    /// instead; what is there goes on where it ended
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["output", "compare", "no_pictures"])]
     tables: Option<PathBuf>,
-    /// With --tables, only this one; may be given often [default: all but peers]
+    /// With --tables, only this one; may be given often [default: all]
     #[arg(long, value_enum, value_name = "TABLE", requires = "tables")]
-    only: Vec<tables::Part>,
+    only: Vec<parts::Part>,
     /// Time other programs that derive, integrate and evaluate, where they are installed, beside this one
     #[arg(long, conflicts_with_all = ["output", "compare", "tables"])]
     peer: bool,
@@ -252,4 +257,8 @@ fn peak_memory() -> Option<u64> {
         .find_map(|line| line.strip_prefix("VmHWM:"))?;
     let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kibibytes * 1024)
+}
+
+fn mebibytes(bytes: u64) -> f64 {
+    bytes as f64 / f64::from(1 << 20)
 }

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use pullback_runtime::bench::median;
 
 use super::base::{Program, Run};
+use super::mebibytes;
 
 /// Writes milliseconds of every stage and picture, medians of the turns.
 pub(super) fn tell(run: &Run) -> io::Result<()> {
@@ -58,7 +59,6 @@ pub(super) fn tell(run: &Run) -> io::Result<()> {
     };
     let medians: Vec<f64> = names.iter().map(|name| all(name)).collect();
     line(&mut out, "median", width, &medians)?;
-    let mebibytes = |bytes: u64| bytes as f64 / f64::from(1 << 20);
     if let Some(bytes) = run.peak_host_bytes {
         writeln!(
             out,

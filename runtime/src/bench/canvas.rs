@@ -1,14 +1,14 @@
 //! Drawing modules of one picture again and again, timed.
 
+use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use naga::Module;
 use naga::valid::ModuleInfo;
 use pullback_compiler::lower::{Format, Tier};
-use pullback_runtime::{Error, Gpu, shader};
 
-use super::clock::{Clock, read};
-use crate::stills::Still;
+use crate::clock::Clock;
+use crate::{Error, Frame, Gpu, shader};
 
 /// A timed submission on hardware takes this long at least, so that a clock's tick and a launch do not count.
 const SHORTEST: f64 = 2e-3;
@@ -36,40 +36,40 @@ pub struct Stage {
 }
 
 impl Canvas {
-    /// Puts the uniforms of a picture on the device.
+    /// Puts the uniforms of a picture on the device: one sample a pixel, the clock at 0, no mesh.
     ///
     /// # Errors
     /// The device's.
-    pub fn new(gpu: &Gpu, still: &Still) -> Result<Self, Error> {
-        let (width, height) = (still.size.width, still.size.height);
-        let pixel = still.view.height / f64::from(height);
+    pub fn new(gpu: &Gpu, frame: &Frame) -> Result<Self, Error> {
+        let (width, height) = (frame.size.width, frame.size.height);
+        let pixel = frame.pixel();
         let mut params = [0.0f32; 64];
-        for (slot, &value) in params.iter_mut().zip(&still.params) {
+        for (slot, &value) in params.iter_mut().zip(frame.params) {
             *slot = value as f32;
         }
         let bytes =
             |words: Vec<u32>| -> Vec<u8> { words.into_iter().flat_map(u32::to_le_bytes).collect() };
-        let [x, y] = still.view.center.map(|c| (c as f32).to_bits());
+        let [x, y] = frame.view.center.map(|c| (c as f32).to_bits());
         let [w, h] = [width, height].map(|side| (side as f32).to_bits());
         let step = (pixel as f32).to_bits();
         let view = vec![x, y, w, h, 0, 0, step, 0, 1, 0, width, height];
-        let mut wide = vec![still.view.center[0], still.view.center[1], 0.0, pixel];
-        wide.extend(&still.params);
+        let mut wide = vec![frame.view.center[0], frame.view.center[1], 0.0, pixel];
+        wide.extend(frame.params);
         wide.resize(4 + 64, 0.0);
         let wide: Vec<u32> = wide
             .into_iter()
             .flat_map(|number| Format::Single.words(number))
             .collect();
         let params: Vec<u32> = params.iter().map(|p| p.to_bits()).collect();
-        let settings = still.scene.pack_settings(&still.settings);
         let uniform = wgpu::BufferUsages::UNIFORM;
         let image = u64::from(width) * u64::from(height) * 4;
+        let clock = Clock::new(gpu)?;
         gpu.guarded("allocation", || Self {
             size: [width, height],
             buffers: [
                 filled(gpu, &bytes(view), uniform),
                 filled(gpu, &bytes(params), uniform),
-                filled(gpu, &settings, uniform),
+                filled(gpu, frame.settings, uniform),
                 filled(gpu, &bytes(wide), wgpu::BufferUsages::STORAGE),
                 // a scene without a mesh
                 filled(gpu, &[0; 16], wgpu::BufferUsages::STORAGE),
@@ -84,7 +84,7 @@ impl Canvas {
                 image,
                 wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
             ),
-            clock: Clock::new(gpu),
+            clock,
             gpu: gpu.clone(),
         })
     }
@@ -160,8 +160,12 @@ impl Canvas {
     ///
     /// # Errors
     /// The device's.
-    pub fn turns(&self, stages: &[Stage; 3], turns: u32) -> Result<Vec<[f64; 3]>, Error> {
-        let mut repeats = [1; 3];
+    pub fn turns<const N: usize>(
+        &self,
+        stages: &[Stage; N],
+        turns: u32,
+    ) -> Result<Vec<[f64; N]>, Error> {
+        let mut repeats = [1; N];
         for (stage, repeats) in stages.iter().zip(&mut repeats) {
             let start = Instant::now();
             let mut once = self.time(stage, 1)?;
@@ -174,9 +178,9 @@ impl Canvas {
         }
         let mut all = Vec::new();
         for _ in 0..turns.max(1) {
-            let mut turn = [0.0; 3];
-            for k in 0..3 {
-                turn[k] = self.time(&stages[k], repeats[k])?;
+            let mut turn = [0.0; N];
+            for ((time, stage), &repeats) in turn.iter_mut().zip(stages).zip(&repeats) {
+                *time = self.time(stage, repeats)?;
             }
             all.push(turn);
         }
@@ -189,7 +193,9 @@ impl Canvas {
             .gpu
             .guarded("recording", || self.record(stage, repeats))?;
         let start = Instant::now();
-        let submission = self.gpu.queue().submit([encoder.finish()]);
+        let submission = self
+            .gpu
+            .guarded("drawing", || self.gpu.queue().submit([encoder.finish()]))?;
         self.gpu.wait("drawing", submission)?;
         let total = match &self.clock {
             Some(clock) => clock.read(&self.gpu)?,
@@ -206,13 +212,7 @@ impl Canvas {
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                 label: None,
-                timestamp_writes: self.clock.as_ref().map(|clock| {
-                    wgpu::ComputePassTimestampWrites {
-                        query_set: &clock.queries,
-                        beginning_of_pass_write_index: Some(0),
-                        end_of_pass_write_index: Some(1),
-                    }
-                }),
+                timestamp_writes: self.clock.as_ref().map(Clock::around),
             });
             pass.set_pipeline(&stage.pipeline);
             pass.set_bind_group(0, &stage.bindings, &[]);
@@ -222,8 +222,7 @@ impl Canvas {
             }
         }
         if let Some(clock) = &self.clock {
-            encoder.resolve_query_set(&clock.queries, 0..2, &clock.resolved, 0);
-            encoder.copy_buffer_to_buffer(&clock.resolved, 0, &clock.readable, 0, 16);
+            clock.resolve(&mut encoder);
         }
         encoder
     }
@@ -236,8 +235,37 @@ impl Canvas {
         let mut encoder = self.gpu.guarded("recording", || self.record(stage, 1))?;
         let bytes = self.readable.size();
         encoder.copy_buffer_to_buffer(&self.buffers[5], 0, &self.readable, 0, bytes);
-        self.gpu.queue().submit([encoder.finish()]);
-        read(&self.gpu, &self.readable)
+        self.gpu
+            .guarded("drawing", || self.gpu.queue().submit([encoder.finish()]))?;
+        self.read()
+    }
+
+    /// Waits for the device, and copies the image.
+    fn read(&self) -> Result<Vec<u8>, Error> {
+        let during = "reading";
+        let failed = |reason: String| Error::Device { during, reason };
+        let (sender, receiver) = mpsc::channel();
+        let submission = self.gpu.guarded(during, || {
+            self.readable
+                .map_async(wgpu::MapMode::Read, .., move |mapped| {
+                    // nobody waits any more where the device has failed
+                    let _ = sender.send(mapped);
+                });
+            self.gpu.queue().submit([])
+        })?;
+        self.gpu.wait(during, submission)?;
+        receiver
+            .try_recv()
+            .map_err(|error| failed(error.to_string()))?
+            .map_err(|error| failed(error.to_string()))?;
+        let seen = self
+            .readable
+            .slice(..)
+            .get_mapped_range()
+            .map_err(|error| failed(error.to_string()))?
+            .to_vec();
+        self.readable.unmap();
+        Ok(seen)
     }
 }
 

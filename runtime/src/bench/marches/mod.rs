@@ -2,18 +2,18 @@
 //! how long a frame of rays takes.
 
 pub mod densities;
+pub mod quadrature;
 mod rays;
 mod shaders;
 
 use pullback_compiler::compile;
 use pullback_compiler::formula::Formula;
-use pullback_compiler::lower::Precision;
-use pullback_runtime::{Error, Gpu, Size};
 
-use crate::quadrature::Exact;
-use crate::stills::Still;
-use crate::twins::{Canvas, Stage};
+use super::canvas::{Canvas, Stage};
+use super::statistics::median;
+use crate::{Error, Frame, Gpu, Pipeline, Size, View};
 use densities::Density;
+use quadrature::Exact;
 use rays::{Ray, Reference, rays};
 use shaders::{Method, module};
 
@@ -68,7 +68,7 @@ pub struct Measured {
 struct Samples<'a> {
     gpu: &'a Gpu,
     formula: &'a Formula,
-    still: Still,
+    size: Size,
     stride: u32,
     rays: Vec<(Ray, Exact)>,
     /// The least ∫ |f| that counts.
@@ -78,14 +78,11 @@ struct Samples<'a> {
 /// Measures one density.
 ///
 /// # Errors
-/// The device's.
-///
-/// # Panics
-/// The density does not compile.
+/// The device's, and [`Error::Invalid`] where the density does not compile.
 pub fn measure(density: &Density, gpu: &Gpu, plan: &Plan) -> Result<Measured, Error> {
     let text = format!("f(x, y, z) = {}\nshow additive(f)", density.formula);
     let program = compile(&text).program;
-    let program = program.unwrap_or_else(|| panic!("{text}"));
+    let program = program.ok_or(Error::Invalid { reason: text })?;
     let formula = &program.pictures()[0].formula;
     let mut samples = Samples::new(gpu, formula, plan.stride)?;
     let error = samples.error(Method::Closed)?;
@@ -124,7 +121,7 @@ impl<'a> Samples<'a> {
         Ok(Self {
             gpu,
             formula,
-            still: still(size),
+            size,
             stride,
             rays,
             least: 1e-6 * greatest,
@@ -149,7 +146,7 @@ impl<'a> Samples<'a> {
 
     /// The error that 99.9 % of the rays are within, as a part of ∫ |f|.
     fn error(&mut self, method: Method) -> Result<f64, Error> {
-        let (canvas, stage) = staged(self.gpu, self.formula, method, self.stride, &mut self.still)?;
+        let (canvas, stage) = staged(self.gpu, self.formula, method, self.stride, self.size)?;
         let bytes = canvas.picture(&stage)?;
         let found = bytes.as_chunks::<4>().0;
         let mut errors: Vec<f64> = self
@@ -167,22 +164,28 @@ impl<'a> Samples<'a> {
     }
 }
 
-/// What the canvas takes its size and its parameters from.
-fn still(size: Size) -> Still {
-    Still::in_precision("f(x, y, z) = 1\nshow additive(f)", size, 1, Precision::Fast)
-}
-
-/// A method on the device.
+/// A method on the device, for a picture of rays.
 fn staged(
     gpu: &Gpu,
     formula: &Formula,
     method: Method,
     stride: u32,
-    still: &mut Still,
+    size: Size,
 ) -> Result<(Canvas, Stage), Error> {
-    still.params = method.params();
-    let canvas = Canvas::new(gpu, still)?;
-    let (module, info) = module(formula, method, stride);
+    let frame = Frame {
+        view: View {
+            center: [0.0, 0.0],
+            height: 2.0,
+        },
+        params: &method.params(),
+        settings: &[0; 16],
+        size,
+        samples: 1,
+        time: 0.0,
+        pipeline: Pipeline::Compute,
+    };
+    let canvas = Canvas::new(gpu, &frame)?;
+    let (module, info) = module(formula, method, stride)?;
     let stage = canvas.stage(&module, &info)?;
     Ok((canvas, stage))
 }
@@ -194,20 +197,19 @@ fn times(
     rivals: [Method; 2],
     seconds: f64,
 ) -> Result<[f64; 3], Error> {
-    let mut still = still(FRAME);
-    let (_, closed) = staged(gpu, formula, Method::Closed, 1, &mut still)?;
-    let (_, march) = staged(gpu, formula, rivals[0], 1, &mut still)?;
-    let (canvas, gauss) = staged(gpu, formula, rivals[1], 1, &mut still)?;
+    let (_, closed) = staged(gpu, formula, Method::Closed, 1, FRAME)?;
+    let (_, march) = staged(gpu, formula, rivals[0], 1, FRAME)?;
+    let (canvas, gauss) = staged(gpu, formula, rivals[1], 1, FRAME)?;
     let stages = [closed, march, gauss];
     let first = canvas.turns(&stages, 1)?;
     let once: f64 = first.iter().flatten().sum();
     let turns = (seconds / once.max(1e-6)).clamp(3.0, 15.0) as u32;
     let turns = canvas.turns(&stages, turns)?;
-    let median = |mut values: Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        values[values.len() / 2]
+    let ratio = |k: usize| {
+        let all: Vec<f64> = turns.iter().map(|turn| turn[k] / turn[0]).collect();
+        median(&all)
     };
-    let ratio = |k: usize| median(turns.iter().map(|turn| turn[k] / turn[0]).collect());
-    let closed = median(turns.iter().map(|turn| turn[0]).collect());
+    let closed: Vec<f64> = turns.iter().map(|turn| turn[0]).collect();
+    let closed = median(&closed);
     Ok([closed, ratio(1), ratio(2)])
 }

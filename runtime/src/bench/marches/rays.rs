@@ -1,10 +1,10 @@
-//! The rays of `tests/marches/rays.wgsl` in f64, and integrals along them by an adaptive rule.
+//! The rays of `rays.wgsl` in f64, and integrals along them by an adaptive rule.
 
 use pullback_compiler::formula::Formula;
 use pullback_compiler::{Evaluator, What};
-use pullback_runtime::{Error, Size};
 
-use crate::quadrature::{Exact, adaptive};
+use super::quadrature::{Exact, adaptive};
+use crate::{Error, Size};
 
 /// How far from a tie an end of a ray must be before it is rounded, in 1/1024, so that a device's division does not
 /// decide where it goes.
