@@ -110,7 +110,7 @@ impl Clerk<'_> {
                 (text, 0)
             }
             Part::Peers => {
-                let text = peers::table(self.console)?;
+                let text = peers::table(self.arguments, Some(self.gpu), self.console)?;
                 self.put(&path, &text)?;
                 (text, 0)
             }

@@ -213,18 +213,7 @@ def slang_peer(formulas):
         within(("Slang", version), "text to SPIR-V", name, lambda: timed(lambda: compile(slang_text(names, text)), 5))
 
 
-def fidget_peer():
-    """A program that is built as tests/peers/fidget.md says, and writes such lines itself."""
-    program = shutil.which("pullback-peer-fidget")
-    if not program:
-        return tell("fidget", "missing", "", "", "")
-    found = subprocess.run([program], capture_output=True, text=True, timeout=60)
-    sys.stdout.write(found.stdout)
-    sys.stdout.flush()
-
-
 formulas = [line.rstrip("\n").split("\t") for line in sys.stdin if line.strip()]
 sympy_peer(formulas)
 mpmath_peer(formulas)
 slang_peer(formulas)
-fidget_peer()
