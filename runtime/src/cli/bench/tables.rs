@@ -25,6 +25,8 @@ use crate::cli::{Console, Numbers, Tier};
 
 /// Turns of all programs at least, in a table.
 const FEWEST: usize = 3;
+/// Seconds that a line has at least, when the time is over.
+const SHORTEST: f64 = 0.1;
 
 /// A picture of each scene.
 const ONE_OF_EACH: [&str; 17] = [
@@ -217,7 +219,7 @@ impl Clerk<'_> {
                 return Ok((table.text().to_owned(), total - k));
             }
             let left = self.until.saturating_duration_since(now).as_secs_f64();
-            match line(item, left / (total - k) as f64) {
+            match line(item, (left / (total - k) as f64).max(SHORTEST)) {
                 Ok(line) => table.add(&line)?,
                 // what is found so far is in the file
                 Err(failure) if self.gpu.is_lost() => return Err(failure),
