@@ -1,22 +1,13 @@
-//! Time from text to validated module, with templates already parsed: per stage for the gallery, and its growth
-//! with the size of the formula; with and without stability rewrites.
+//! Time of the last diagnostic of long texts, and what stability rewrites add to the time from text to module. Stages and their
+//! growth are timed by `pullback bench`.
 //!
-//! `cargo bench --workspace --bench compile_time -- [gallery] [growth] [diagnostics] [rewrites]`
+//! `cargo bench --workspace --bench compile_time -- [diagnostics] [rewrites]`
 
-use std::fmt::Write as _;
 use std::time::Instant;
 
-use pullback_compiler::check::is_builtin_function;
 use pullback_compiler::lower::Precision;
 use pullback_compiler::stable::Rewrites;
-use pullback_compiler::{Program, SceneModule, compile};
-
-const STAGES: [&str; 4] = [
-    "parse",
-    "check and build",
-    "derive, lower, link",
-    "compact, validate",
-];
+use pullback_compiler::{SceneModule, compile};
 
 fn main() {
     let mut gallery: Vec<(String, String)> = Vec::new();
@@ -33,15 +24,9 @@ fn main() {
     }
     gallery.sort();
     let asked: Vec<String> = std::env::args().skip(1).collect();
-    let tables = ["gallery", "growth", "diagnostics", "rewrites"];
+    let tables = ["diagnostics", "rewrites"];
     let some = asked.iter().any(|word| tables.contains(&word.as_str()));
     let is_asked = |table: &str| !some || asked.iter().any(|word| word == table);
-    if is_asked("gallery") {
-        gallery_table(&gallery);
-    }
-    if is_asked("growth") {
-        growth_table();
-    }
     if is_asked("diagnostics") {
         diagnostics_table();
     }
@@ -171,95 +156,7 @@ fn large_texts() -> Vec<(&'static str, String)> {
     ]
 }
 
-fn gallery_table(gallery: &[(String, String)]) {
-    println!("Text to validated module, median of 31 runs, microseconds\n");
-    println!("| formula | {} | total |", STAGES.join(" | "));
-    println!("| --- | ---: | ---: | ---: | ---: | ---: |");
-    let mut all: Vec<[f64; 5]> = Vec::new();
-    for (name, text) in gallery {
-        let row = stages(text, 31);
-        println!("| {name} | {} |", cells(&row));
-        all.push(row);
-    }
-    let mut medians = [0.0; 5];
-    for (k, median) in medians.iter_mut().enumerate() {
-        *median = self::median(all.iter().map(|r| r[k]).collect());
-    }
-    println!("| **median** | {} |", cells(&medians));
-    println!(
-        "\nslowest total: {:.0}",
-        all.iter().map(|r| r[4]).fold(0.0, f64::max)
-    );
-}
-
-fn cells(row: &[f64; 5]) -> String {
-    row.iter()
-        .map(|t| format!("{t:.0}"))
-        .collect::<Vec<_>>()
-        .join(" | ")
-}
-
-/// Medians of each stage and of the total.
-fn stages(text: &str, runs: usize) -> [f64; 5] {
-    let mut samples: Vec<[f64; 5]> = Vec::new();
-    for _ in 0..=runs {
-        // the parser's code is no longer in the cache, but must be for both that follow
-        std::hint::black_box(pullback_grammar::parse(text, &is_builtin_function));
-        let start = Instant::now();
-        std::hint::black_box(pullback_grammar::parse(text, &is_builtin_function));
-        let parse = start.elapsed().as_secs_f64() * 1e6;
-        let start = Instant::now();
-        let program: Program = compile(text).program.expect("a program without errors");
-        let compiled = start.elapsed().as_secs_f64() * 1e6;
-        let picture = &program.pictures()[0];
-        let start = Instant::now();
-        let linked = SceneModule::link(picture, Precision::Accurate).expect("a module");
-        let link = start.elapsed().as_secs_f64() * 1e6;
-        drop(linked);
-        let start = Instant::now();
-        let module = SceneModule::new(picture, Precision::Accurate).expect("a module");
-        let whole = start.elapsed().as_secs_f64() * 1e6;
-        drop(module);
-        samples.push([
-            parse,
-            compiled - parse,
-            link,
-            whole - link,
-            compiled + whole,
-        ]);
-    }
-    // the first run parses templates and fills caches
-    samples.remove(0);
-    let mut out = [0.0; 5];
-    for (k, slot) in out.iter_mut().enumerate() {
-        *slot = median(samples.iter().map(|s| s[k]).collect());
-    }
-    out
-}
-
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
-}
-
-/// Sums of n distinct terms, which no common subexpression shortens.
-fn growth_table() {
-    println!("\nGrowth with the number of syntax nodes, microseconds a node\n");
-    println!(
-        "| nodes | {} | total | total / (n log2 n), ns |",
-        STAGES.join(" | ")
-    );
-    println!("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
-    for terms in [2_u32, 20, 200, 2_000, 20_000] {
-        let mut text = String::from("x");
-        for k in 1..terms {
-            let _ = write!(text, " + {k} x y");
-        }
-        let nodes = 5.0 * f64::from(terms);
-        let runs = if terms > 1_000 { 3 } else { 15 };
-        let row = stages(&text, runs);
-        let each: Vec<String> = row.iter().map(|t| format!("{:.3}", t / nodes)).collect();
-        let growth = row[4] * 1e3 / (nodes * nodes.log2());
-        println!("| {nodes} | {} | {growth:.0} |", each.join(" | "));
-    }
 }

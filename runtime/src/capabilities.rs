@@ -11,6 +11,7 @@ use pullback_compiler::lower::{Exactness, Precision, Tier};
 use serde::{Deserialize, Serialize};
 
 use crate::{Error, Gpu, probe};
+pub use cache::cache_folder;
 
 /// What findings are about.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -15,13 +15,10 @@ pub mod formatting;
 pub mod goldens;
 pub mod holds;
 pub mod loops;
-#[cfg(feature = "gpu")]
-pub mod marches;
 pub mod mutate;
 pub mod operations;
 #[cfg(feature = "gpu")]
 pub mod pictures;
-pub mod quadrature;
 pub mod same_module;
 pub mod special;
 #[cfg(feature = "gpu")]
@@ -33,3 +30,6 @@ pub mod stills;
 #[cfg(feature = "gpu")]
 pub mod twins;
 pub mod units;
+
+#[cfg(feature = "gpu")]
+pub use pullback_runtime::bench::marches;

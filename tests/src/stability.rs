@@ -11,7 +11,7 @@ use pullback_compiler::integrate::{Otherwise, field_integral};
 use pullback_compiler::{Evaluator, What, compile, compile_function};
 
 use crate::accuracy::evaluators::{Machine, Point};
-use crate::quadrature::adaptive;
+use crate::marches::quadrature::adaptive;
 use classes::Class;
 use rays::{Distance, Ray, Slant};
 

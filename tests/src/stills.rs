@@ -100,21 +100,27 @@ impl Still {
             .expect("a module for settings")
     }
 
+    /// The frame of a pipeline, with the bytes of the scene's settings.
+    #[must_use]
+    pub fn frame<'a>(&'a self, settings: &'a [u8], pipeline: Pipeline) -> Frame<'a> {
+        Frame {
+            view: self.view,
+            params: &self.params,
+            settings,
+            size: self.size,
+            samples: self.samples,
+            time: 0.0,
+            pipeline,
+        }
+    }
+
     /// Draws it in the form of a pipeline.
     ///
     /// # Errors
     /// The machine's.
     pub fn draw(&self, machine: &Machine, pipeline: Pipeline) -> Result<Vec<u8>, Error> {
         let bytes = self.scene.pack_settings(&self.settings);
-        let frame = Frame {
-            view: self.view,
-            params: &self.params,
-            settings: &bytes,
-            size: self.size,
-            samples: self.samples,
-            time: 0.0,
-            pipeline,
-        };
+        let frame = self.frame(&bytes, pipeline);
         let mut rows = Vec::new();
         match machine {
             Machine::Adapter(gpu) => {

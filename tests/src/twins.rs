@@ -1,176 +1,55 @@
 //! Whole programs written by hand, one for each scene, beside what the compiler makes: how long a frame takes and how
 //! far it is from the f64 reference.
 
-mod canvas;
-mod clock;
 mod count;
 
-use std::fmt;
+use std::ops::Deref;
 
-use naga::Module;
-use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use pullback_compiler::lower::Precision;
-use pullback_runtime::difference::{Bitmap, compare};
+use pullback_runtime::bench;
+pub use pullback_runtime::bench::canvas::{Canvas, Stage};
+pub use pullback_runtime::bench::twins::Off;
+use pullback_runtime::bench::twins::{Times, times};
+use pullback_runtime::difference::Bitmap;
 use pullback_runtime::executor::Arithmetic;
 use pullback_runtime::{Error, Gpu, Pipeline, Size};
 
 use crate::stills::{Machine, Still};
-pub use canvas::{Canvas, Stage};
 pub use count::{Count, count};
 
 /// A scene's twin, and the program whose picture it is.
 #[derive(Clone, Copy, Debug)]
-pub struct Twin {
-    /// The scene.
-    pub scene: &'static str,
-    /// The file of the gallery.
-    pub formula: &'static str,
-    /// Its text.
-    program: &'static str,
-    /// Settings that are automatic there, as the twin has them.
-    automatic: &'static [(&'static str, f64)],
-    /// The twin's text, after the common one.
-    parts: &'static [&'static str],
-}
+pub struct Twin(bench::twins::Twin);
 
-macro_rules! twin {
-    ($scene:literal, $formula:literal, $automatic:expr, $($part:literal),+) => {
-        Twin {
-            scene: $scene,
-            formula: $formula,
-            program: include_str!(concat!("../../docs/gallery/", $formula, ".pull")),
-            automatic: &$automatic,
-            parts: &[$(include_str!(concat!("../twins/", $part, ".wgsl"))),+],
-        }
-    };
-}
+impl Deref for Twin {
+    type Target = bench::twins::Twin;
 
-/// What all twins begin with.
-const COMMON: &str = include_str!("../twins/common.wgsl");
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
 
 /// The twins of all scenes.
-pub const TWINS: [Twin; 17] = [
-    twin!("levels", "chladni", [("color_scale", 0.4)], "levels"),
-    twin!("logcontours", "charges", [], "logcontours"),
-    twin!("bands", "zone-plate", [], "bands"),
-    twin!("implicit", "folium", [], "implicit"),
-    twin!("domain", "blaschke", [], "complex", "domain"),
-    twin!("checker", "confocal", [], "checker"),
-    twin!("grid", "lambert", [], "complex", "grid"),
-    twin!("sphere", "doyle-mcmullen", [], "complex", "sphere"),
-    twin!("slices", "multipole", [], "slices"),
-    twin!("surface", "cayley", [], "surface"),
-    twin!("nested", "schwarz-family", [], "shells", "nested"),
-    twin!("cutaway", "neovius", [], "shells", "cutaway"),
-    twin!(
-        "volume",
-        "orbital",
-        [("color_scale", 8.0)],
-        "medium",
-        "volume"
-    ),
-    twin!(
-        "volumecut",
-        "resonance",
-        [("color_scale", 0.4)],
-        "medium",
-        "volumecut"
-    ),
-    twin!("scatter", "cloud", [], "scatter"),
-    twin!("additive", "hologram", [], "additive"),
-    twin!("glow", "ember", [], "glow"),
-];
+pub const TWINS: [Twin; bench::twins::TWINS.len()] = {
+    let mut all = [Twin(bench::twins::TWINS[0]); bench::twins::TWINS.len()];
+    let mut k = 0;
+    while k < all.len() {
+        all[k] = Twin(bench::twins::TWINS[k]);
+        k += 1;
+    }
+    all
+};
 
 impl Twin {
-    /// The whole text.
-    #[must_use]
-    pub fn text(&self) -> String {
-        let mut text = COMMON.to_owned();
-        for part in self.parts {
-            text += part;
-        }
-        text
-    }
-
-    /// The twin's module.
+    /// The picture that the compiler makes a module of.
     ///
     /// # Panics
-    /// It is no valid WGSL.
-    #[must_use]
-    pub fn module(&self) -> (Module, ModuleInfo) {
-        parsed(self.scene, &self.text())
-    }
-
-    /// The picture that the compiler makes a module of.
+    /// The program does not compile.
     #[must_use]
     pub fn still(&self, size: Size, precision: Precision) -> Still {
         let mut still = Still::in_precision(self.program, size, 1, precision);
-        for setting in &mut still.settings {
-            let wanted = self.automatic.iter().find(|a| a.0 == setting.spec.name);
-            if let Some(&(_, value)) = wanted {
-                setting.value.x = value;
-            }
-        }
+        self.fill_in(&mut still.settings);
         still
-    }
-}
-
-/// The module of a text.
-///
-/// # Panics
-/// It is no valid WGSL.
-#[must_use]
-pub fn parsed(name: &str, text: &str) -> (Module, ModuleInfo) {
-    let module = naga::front::wgsl::parse_str(text)
-        .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)));
-    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
-        .validate(&module)
-        .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)));
-    (module, info)
-}
-
-/// How far a picture is from the reference.
-#[derive(Clone, Copy, Debug)]
-pub struct Off {
-    /// Mean of FLIP.
-    pub flip: f64,
-    /// Root of the mean square of the difference of a channel, of 255.
-    pub rms: f64,
-    /// The share of pixels of which a channel is off by more than 8 of 255.
-    pub share: f64,
-}
-
-impl fmt::Display for Off {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{:.4}, {:.2}, {:.2} %",
-            self.flip,
-            self.rms,
-            100.0 * self.share
-        )
-    }
-}
-
-impl Off {
-    /// Of two pictures.
-    ///
-    /// # Errors
-    /// Their sizes differ.
-    pub fn new(truth: &Bitmap, test: &Bitmap) -> Result<Self, Error> {
-        let flip = compare(truth, test, &mut |_, _| ())?.perceptual.mean;
-        let (mut sum, mut many) = (0.0, 0);
-        for (a, b) in truth.pixels().iter().zip(test.pixels()) {
-            let off = [0, 1, 2].map(|k| f64::from(a[k].abs_diff(b[k])));
-            sum += off.iter().map(|x| x * x).sum::<f64>();
-            many += usize::from(off.iter().any(|&x| x > 8.0));
-        }
-        let pixels = truth.pixels().len().max(1) as f64;
-        Ok(Self {
-            flip,
-            rms: (sum / (3.0 * pixels)).sqrt(),
-            share: many as f64 / pixels,
-        })
     }
 }
 
@@ -211,12 +90,13 @@ pub struct Plan {
 pub fn measure(twin: &Twin, gpu: &Gpu, plan: &Plan) -> Result<Measured, Error> {
     let precisions = [Precision::Accurate, Precision::Fast];
     let ours = precisions.map(|precision| twin.still(plan.size, precision));
-    let canvas = Canvas::new(gpu, &ours[0])?;
+    let settings = ours[0].scene.pack_settings(&ours[0].settings);
+    let canvas = Canvas::new(gpu, &ours[0].frame(&settings, Pipeline::Compute))?;
     let scenes = ours.each_ref().map(|still| still.shader(plan.general));
-    let (module, info) = twin.module();
+    let (module, info) = twin.module()?;
     let second = match &plan.instead {
         Some(text) => {
-            let (module, info) = parsed("--instead", text);
+            let (module, info) = bench::twins::module(text)?;
             canvas.stage(&module, &info)?
         }
         None => canvas.stage(&scenes[1].module, &scenes[1].info)?,
@@ -226,21 +106,15 @@ pub fn measure(twin: &Twin, gpu: &Gpu, plan: &Plan) -> Result<Measured, Error> {
         second,
         canvas.stage(&module, &info)?,
     ];
-    let turns = canvas.turns(&stages, plan.turns)?;
-    let median = |mut values: Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        values[values.len() / 2]
-    };
-    let of = |k: usize| median(turns.iter().map(|turn| turn[k]).collect());
-    let ratio = |k: usize| median(turns.iter().map(|turn| turn[k] / turn[2]).collect());
+    let Times { seconds, ratios } = times(&canvas, &stages, plan.turns)?;
     let (off, pictures) = if plan.reference {
         compared(twin, gpu, plan)?
     } else {
         (None, Vec::new())
     };
     Ok(Measured {
-        seconds: [0, 1, 2].map(of),
-        ratios: [ratio(0), ratio(1)],
+        seconds,
+        ratios,
         off,
         pictures,
     })
@@ -251,10 +125,11 @@ type Pictures = Vec<(&'static str, Bitmap)>;
 /// The small pictures, and how far they are from the reference.
 fn compared(twin: &Twin, gpu: &Gpu, plan: &Plan) -> Result<(Option<[Off; 3]>, Pictures), Error> {
     let ours = [Precision::Accurate, Precision::Fast].map(|p| twin.still(plan.small, p));
-    let canvas = Canvas::new(gpu, &ours[0])?;
+    let settings = ours[0].scene.pack_settings(&ours[0].settings);
+    let canvas = Canvas::new(gpu, &ours[0].frame(&settings, Pipeline::Compute))?;
     let machine = Machine::Adapter(gpu.clone());
     let bitmap = |rows: Vec<u8>| Bitmap::from_rgba(plan.small, &rows);
-    let (module, info) = twin.module();
+    let (module, info) = twin.module()?;
     let drawn = [
         bitmap(ours[0].draw(&machine, Pipeline::Compute)?)?,
         bitmap(ours[1].draw(&machine, Pipeline::Compute)?)?,

@@ -21,8 +21,10 @@ fn twins_draw_what_the_scenes_draw() {
     for twin in TWINS {
         let still = twin.still(size, Precision::Accurate);
         let ours = still.draw(&machine, Pipeline::Compute).unwrap();
-        let canvas = Canvas::new(&gpu, &still).unwrap();
-        let (module, info) = twin.module();
+        let settings = still.scene.pack_settings(&still.settings);
+        let frame = still.frame(&settings, Pipeline::Compute);
+        let canvas = Canvas::new(&gpu, &frame).unwrap();
+        let (module, info) = twin.module().unwrap();
         let theirs = canvas
             .picture(&canvas.stage(&module, &info).unwrap())
             .unwrap();

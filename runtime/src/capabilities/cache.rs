@@ -21,9 +21,15 @@ struct Kept<T> {
     capabilities: T,
 }
 
-/// The folder for findings, if the user has one for caches.
-pub(super) fn folder() -> Option<PathBuf> {
+/// The folder of this program among those for caches, if the user has one.
+#[must_use]
+pub fn cache_folder() -> Option<PathBuf> {
     folder_of(|name| std::env::var_os(name))
+}
+
+/// The folder for findings.
+pub(super) fn folder() -> Option<PathBuf> {
+    Some(cache_folder()?.join("adapters"))
 }
 
 /// Likewise, with another environment. XDG Base Directory Specification 0.8: a relative path is to be ignored.
@@ -42,7 +48,7 @@ fn folder_of(variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
             Some(absolute("HOME")?.join(".cache"))
         }
     })?;
-    Some(base.join("pullback").join("adapters"))
+    Some(base.join("pullback"))
 }
 
 /// What is kept of an adapter; nothing if that is missing, broken, or of another adapter, driver or probe.

@@ -1,8 +1,14 @@
 //! `pullback bench`: what programs cost, from their text to their picture, and whether that has changed.
 
 mod base;
+mod compared;
 mod dots;
+mod instructions;
+mod large;
+mod parts;
 mod peers;
+mod programs;
+mod report;
 mod table;
 mod tables;
 mod tiers;
@@ -43,6 +49,9 @@ pub(super) struct BenchArguments {
     /// The compiler alone, without an adapter
     #[arg(long)]
     no_pictures: bool,
+    /// Count the compiler's instructions for each program, too: by perf, or else by valgrind, which takes seconds for each
+    #[arg(long, conflicts_with_all = ["tables", "peer"])]
+    instructions: bool,
     #[command(flatten)]
     device: Adapter,
     /// The file for the times, to be compared with later, .json
@@ -54,16 +63,23 @@ pub(super) struct BenchArguments {
     /// With --compare, fail where something is slower by more than so many percent beyond doubt
     #[arg(long, value_name = "PERCENT", requires = "compare", value_parser = positive)]
     fail_above: Option<f64>,
-    /// Write the tables of the documentation for this adapter, with their charts, into a folder instead; what is there goes on
-    /// where it ended
+    /// Write the tables of the documentation for this adapter, with their charts and all of them on one page, into a folder
+    /// instead; what is there goes on where it ended
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["output", "compare", "no_pictures"])]
     tables: Option<PathBuf>,
-    /// With --tables, only this one; may be given often [default: all but peers]
+    /// With --tables, only this one; may be given often [default: all]
     #[arg(long, value_enum, value_name = "TABLE", requires = "tables")]
-    only: Vec<tables::Part>,
-    /// Time other programs that derive, integrate and evaluate, where they are installed, beside this one
+    only: Vec<parts::Part>,
+    /// Time other programs that derive, integrate and evaluate, where they are installed, beside this one; fidget is built by
+    /// cargo in the folder for caches
     #[arg(long, conflicts_with_all = ["output", "compare", "tables"])]
     peer: bool,
+    /// A model of the plane in the text format of fidget, .vm, that is drawn by both
+    #[arg(long, value_name = "FILE")]
+    model: Option<PathBuf>,
+    /// Where the pictures that are drawn beside other programs are kept
+    #[arg(long, value_name = "FOLDER", requires = "model")]
+    pictures: Option<PathBuf>,
 }
 
 /// Times everything in turns.
@@ -82,13 +98,17 @@ pub(super) fn run(arguments: &BenchArguments, console: &Console) -> Result<(), F
         Some(super::open(&arguments.device.adapter, console)?)
     };
     let budget = Duration::try_from_secs_f64(arguments.budget).unwrap_or(Duration::MAX / 4);
-    let run = timed(
+    let texts: Vec<String> = subjects.iter().map(|s| s.source.text.clone()).collect();
+    let mut run = timed(
         subjects,
         gpu.as_ref(),
         arguments.size,
         (budget, FEWEST),
         console,
     )?;
+    if arguments.instructions {
+        count(&mut run, &texts, console)?;
+    }
     table::tell(&run).map_err(Failure::stdout)?;
     if let Some(path) = &arguments.output {
         atomic_file::write_text(path, &run.to_json()).map_err(|error| Failure::Io {
@@ -110,6 +130,20 @@ pub(super) fn run(arguments: &BenchArguments, console: &Console) -> Result<(), F
         "{slower} times are greater by more than --fail-above"
     ));
     Err(Failure::Program)
+}
+
+/// Counts instructions for the texts of the programs of a run.
+fn count(run: &mut Run, texts: &[String], console: &Console) -> Result<(), Failure> {
+    let counter = instructions::Counter::new()?;
+    console.note(&format!("instructions are counted by {}", counter.name()));
+    let mut progress = Progress::new(console);
+    let total = texts.len() as u64;
+    for ((done, program), text) in (1..).zip(&mut run.pictures).zip(texts) {
+        program.instructions = counter.count(text);
+        progress.update(done, total);
+    }
+    progress.finish();
+    Ok(())
 }
 
 /// Times programs in turns, until the budget is spent, but so many turns at least.
@@ -223,6 +257,7 @@ impl Run {
         let pictures = benches.iter().map(|bench| base::Program {
             name: bench.subject.source.stem.clone(),
             times: names(gpu.is_some()).into_iter().map(case).collect(),
+            instructions: None,
         });
         Self {
             version: base::VERSION,
@@ -252,4 +287,8 @@ fn peak_memory() -> Option<u64> {
         .find_map(|line| line.strip_prefix("VmHWM:"))?;
     let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kibibytes * 1024)
+}
+
+fn mebibytes(bytes: u64) -> f64 {
+    bytes as f64 / f64::from(1 << 20)
 }

@@ -5,7 +5,7 @@ pub(in crate::cli) mod compare;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use pullback_runtime::{Metadata, Size, image_file};
+use pullback_runtime::{Frame, Metadata, Pipeline, Size, image_file};
 
 use super::diff::Side;
 use super::failure::Failure;
@@ -64,7 +64,13 @@ pub(super) fn run(arguments: &GalleryArguments, console: &Console) -> Result<(),
     let mut progress = Progress::new(console);
     let mut failed = subjects.failed;
     for (place, subject) in (0..).zip(&subjects.pictures) {
-        match draw(subject, &computer, arguments.numbers, console) {
+        match draw(
+            subject,
+            &computer,
+            arguments.numbers,
+            Pipeline::Compute,
+            console,
+        ) {
             Ok(pixels) => sheet.place(place, &pixels),
             Err(failure) => {
                 failure.report(console);
@@ -171,17 +177,21 @@ fn programs(input: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(paths)
 }
 
-/// The pixels of a picture, 8-bit sRGB with alpha.
+/// The pixels of a picture, in the form of a pipeline.
 fn draw(
     subject: &Subject,
     computer: &Computer,
     numbers: Numbers,
+    pipeline: Pipeline,
     console: &Console,
 ) -> Result<Vec<u8>, Failure> {
     let tier = subject.tier(numbers, computer, console)?;
     let scene = subject.scene(tier, console)?;
     let bytes = scene.pack_settings(&subject.settings);
-    let frame = subject.frame(&bytes);
+    let frame = Frame {
+        pipeline,
+        ..subject.frame(&bytes)
+    };
     let mut pixels = Vec::new();
     Artist::new(
         computer,

@@ -1,10 +1,12 @@
 //! How two pictures of one size differ: in numbers, and to the eye.
 
 mod bitmap;
+mod linear;
 mod numeric;
 mod perceptual;
 
 pub use bitmap::Bitmap;
+pub use linear::Light;
 pub use numeric::{Channel, Numeric, SHARES};
 pub use perceptual::{PIXELS_PER_DEGREE, Perceptual, heat_map};
 

@@ -39,7 +39,7 @@ pub struct Perceptual {
 
 impl Perceptual {
     /// Of pictures of one size.
-    pub(super) fn new(
+    pub fn new(
         truth: &Bitmap,
         test: &Bitmap,
         progress: &mut dyn FnMut(u64, u64),

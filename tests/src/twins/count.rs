@@ -69,7 +69,7 @@ pub fn count(
 ) -> Result<[Count; 2], Error> {
     let still = twin.still(size, precision);
     let scene = still.shader(general);
-    let (module, info) = twin.module();
+    let (module, info) = twin.module()?;
     Ok([
         counted(&scene.module, &scene.info, &still)?,
         counted(&module, &info, &still)?,

@@ -8,7 +8,7 @@ use pullback_compiler::lower::Precision;
 use pullback_compiler::{Evaluator, What, compile};
 use pullback_runtime::executor::Arithmetic;
 use pullback_tests::accuracy::evaluators::Machine;
-use pullback_tests::quadrature::{Exact, adaptive};
+use pullback_tests::marches::quadrature::{Exact, adaptive};
 
 use super::points;
 

@@ -5,6 +5,7 @@ use std::path::Path;
 use pullback_runtime::bench::{Ratio, ratio};
 use serde::{Deserialize, Serialize};
 
+use super::instructions::NOISE;
 use crate::cli::failure::Failure;
 use crate::cli::render::name;
 
@@ -33,6 +34,9 @@ pub(super) struct Run {
 pub(super) struct Program {
     pub(super) name: String,
     pub(super) times: Vec<Case>,
+    /// Of the compiler, from the text to SPIR-V, where they were counted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) instructions: Option<u64>,
 }
 
 /// One of them, in each turn.
@@ -104,6 +108,14 @@ impl Run {
                 });
                 out.extend(found.map(|ratio| (format!("{} {}", program.name, case.name), ratio)));
             }
+            let counts = program.instructions.zip(old.instructions);
+            let counts = counts.filter(|&(now, before)| now > 0 && before > 0);
+            out.extend(counts.map(|(now, before)| {
+                let value = now as f64 / before as f64;
+                let range = [value / (1.0 + NOISE), value * (1.0 + NOISE)];
+                let name = format!("{} instructions", program.name);
+                (name, Ratio { value, range })
+            }));
         }
         out
     }

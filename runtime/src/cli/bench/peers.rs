@@ -1,13 +1,20 @@
 //! `pullback bench --peer`: other programs at the same formulas, where they are installed.
 
+mod compiled;
+mod fidget;
+mod model;
+mod pictures;
+
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{EmitWhat, Program, Target, What, compile};
+use pullback_runtime::Gpu;
 use pullback_runtime::bench::median;
 use pullback_runtime::evaluate::Surroundings;
 use pullback_runtime::executor::{Arithmetic, Rows};
@@ -17,9 +24,9 @@ use crate::cli::Console;
 use crate::cli::failure::Failure;
 
 /// What asks the peers, for a Python 3.
-const SCRIPT: &str = include_str!("peers.py");
-/// Longest time that they are given together.
-const PATIENCE: Duration = Duration::from_secs(400);
+const SCRIPT: &str = include_str!("peers/peers.py");
+/// Longest time that a program is given.
+const PATIENCE: Duration = Duration::from_secs(1200);
 /// Turns of ours.
 const TURNS: usize = 9;
 /// Points in a batch.
@@ -90,16 +97,27 @@ const FORMULAS: [Formula; 6] = [
 ];
 
 /// What is timed, in the words of the script.
-const TIMED: [&str; 4] = [
+const TIMED: [&str; 5] = [
     "gradient, made",
     "integral on a ray, made",
     "text to SPIR-V",
     "value and gradient, a point",
+    PICTURE,
 ];
 
+/// The last of them: whole pictures, which have formulas of their own.
+const PICTURE: &str = "picture";
+
+/// What executes our own formulas on the processor: the executor, and C by the compiler of the system.
+const COMPILED: &str = "pullback, in C";
+
 /// Prints the table.
-pub(super) fn run(_: &BenchArguments, console: &Console) -> Result<(), Failure> {
-    let text = table(console)?;
+pub(super) fn run(arguments: &BenchArguments, console: &Console) -> Result<(), Failure> {
+    let gpu = match arguments.model {
+        Some(_) => Some(super::super::open(&arguments.device.adapter, console)?),
+        None => None,
+    };
+    let text = table(arguments, gpu.as_ref(), console)?;
     let mut out = std::io::stdout().lock();
     out.write_all(text.as_bytes())
         .and_then(|()| out.flush())
@@ -109,39 +127,120 @@ pub(super) fn run(_: &BenchArguments, console: &Console) -> Result<(), Failure> 
 /// Seconds, or why there are none, of what is timed of a formula by a program.
 type Cells = BTreeMap<(&'static str, String, String), String>;
 
+/// What programs have told.
+#[derive(Default)]
+struct Told {
+    cells: Cells,
+    peers: Vec<String>,
+    missing: Vec<String>,
+}
+
+impl Told {
+    fn put(&mut self, what: &'static str, name: &str, peer: &str, time: Option<f64>) {
+        let shown = time.map_or_else(|| "none".to_owned(), |s| seconds(&s.to_string()));
+        self.cell(what, name, peer, shown);
+    }
+
+    fn cell(&mut self, what: &'static str, name: &str, peer: &str, shown: String) {
+        self.cells
+            .insert((what, name.to_owned(), peer.to_owned()), shown);
+        if !self.peers.iter().any(|known| known == peer) {
+            self.peers.push(peer.to_owned());
+        }
+    }
+
+    /// Takes lines of peer, version, what is timed, name and result, with tabs between.
+    fn lines(&mut self, answer: &str) {
+        for line in answer.lines() {
+            let words: Vec<&str> = line.split('\t').collect();
+            let &[peer, version, what, name, result] = words.as_slice() else {
+                continue;
+            };
+            if version == "missing" {
+                self.missing.push(format!("{peer} is missing here."));
+                continue;
+            }
+            if let Some(what) = TIMED.iter().find(|timed| **timed == what) {
+                self.cell(what, name, &format!("{peer} {version}"), seconds(result));
+            }
+        }
+    }
+}
+
 /// The table in Markdown, with a line for each peer that is missing.
-pub(super) fn table(console: &Console) -> Result<String, Failure> {
-    let mut cells = Cells::new();
+pub(super) fn table(
+    arguments: &BenchArguments,
+    gpu: Option<&Gpu>,
+    console: &Console,
+) -> Result<String, Failure> {
+    let mut told = Told::default();
     for formula in &FORMULAS {
-        own(formula, &mut cells)?;
+        own(formula, &mut told)?;
     }
-    let answer = asked().unwrap_or_else(|reason| {
-        console.warning(&reason);
-        ["SymPy", "mpmath", "Slang", "fidget"]
-            .map(|peer| format!("{peer}\tmissing\t\t\t\n"))
-            .concat()
+    match python() {
+        Ok(answer) => told.lines(&answer),
+        Err(reason) => {
+            for peer in ["SymPy", "mpmath", "Slang"] {
+                told.missing
+                    .push(format!("{peer} is missing here: {reason}."));
+            }
+        }
+    }
+    let fidget = fidget::program(console).and_then(|program| {
+        told.lines(&fidget::formulas(&program)?);
+        Ok(program)
     });
-    let mut peers = vec!["pullback".to_owned()];
-    let mut missing = Vec::new();
-    for line in answer.lines() {
-        let words: Vec<&str> = line.split('\t').collect();
-        let &[peer, version, what, name, result] = words.as_slice() else {
-            continue;
-        };
-        if version == "missing" {
-            missing.push(peer.to_owned());
-            continue;
-        }
-        let peer = format!("{peer} {version}");
-        let Some(what) = TIMED.iter().find(|timed| **timed == what) else {
-            continue;
-        };
-        cells.insert((what, name.to_owned(), peer.clone()), seconds(result));
-        if !peers.contains(&peer) {
-            peers.push(peer);
-        }
+    match (&fidget, &arguments.model, gpu) {
+        (Err(reason), ..) => told
+            .missing
+            .push(format!("fidget is missing here: {reason}.")),
+        (Ok(program), Some(model), Some(gpu)) => drawn(
+            program,
+            model,
+            arguments.pictures.as_deref(),
+            gpu,
+            &mut told,
+            console,
+        )?,
+        _ => {}
     }
-    Ok(written(&cells, &peers, &missing))
+    Ok(written(&told.cells, &told.peers, &told.missing))
+}
+
+/// Both pictures by fidget and by us.
+fn drawn(
+    fidget: &Path,
+    model: &Path,
+    folder: Option<&Path>,
+    gpu: &Gpu,
+    told: &mut Told,
+    console: &Console,
+) -> Result<(), Failure> {
+    let io = |error| Failure::Io {
+        what: "pictures".to_owned(),
+        error,
+    };
+    let temporary = tempfile::tempdir().map_err(io)?;
+    let folder = folder.unwrap_or(temporary.path());
+    std::fs::create_dir_all(folder).map_err(io)?;
+    let program = pictures::program(model)?;
+    std::fs::copy(model, folder.join("model.vm")).map_err(io)?;
+    let times = pictures::ours(&program, gpu, folder, console)?;
+    for (name, time) in ["model", "gyroid"].into_iter().zip(times) {
+        told.put(PICTURE, name, "pullback", Some(time));
+    }
+    match fidget::pictures(fidget, folder) {
+        Ok(answer) => {
+            told.lines(&answer);
+            let file = std::fs::read(folder.join("model.pgm")).map_err(io)?;
+            let [differing, count] = pictures::differing(&program, gpu, &file)?;
+            told.missing.push(format!(
+                "Of {count} pixels of the model {differing} are inside for one program alone."
+            ));
+        }
+        Err(reason) => told.missing.push(reason),
+    }
+    Ok(())
 }
 
 fn written(cells: &Cells, peers: &[String], missing: &[String]) -> String {
@@ -151,20 +250,23 @@ fn written(cells: &Cells, peers: &[String], missing: &[String]) -> String {
         " ---: |".repeat(peers.len())
     );
     for what in TIMED {
-        for formula in &FORMULAS {
-            if what == TIMED[1] && formula.names != "x y z" {
-                continue;
-            }
+        let names: Vec<&str> = match what {
+            PICTURE => vec!["model", "gyroid"],
+            _ => FORMULAS.iter().map(|formula| formula.name).collect(),
+        };
+        for name in names {
             let cell = |peer: &String| {
-                let found = cells.get(&(what, formula.name.to_owned(), peer.clone()));
+                let found = cells.get(&(what, name.to_owned(), peer.clone()));
                 found.map_or("", String::as_str)
             };
             let row: Vec<&str> = peers.iter().map(cell).collect();
-            text += &format!("| {what} | {} | {} |\n", formula.name, row.join(" | "));
+            if row.iter().any(|cell| !cell.is_empty()) {
+                text += &format!("| {what} | {name} | {} |\n", row.join(" | "));
+            }
         }
     }
-    for peer in missing {
-        text += &format!("\n{peer} is missing here.\n");
+    for line in missing {
+        text += &format!("\n{line}\n");
     }
     text
 }
@@ -181,7 +283,7 @@ fn seconds(text: &str) -> String {
 }
 
 /// Our own times.
-fn own(formula: &Formula, cells: &mut Cells) -> Result<(), Failure> {
+fn own(formula: &Formula, told: &mut Told) -> Result<(), Failure> {
     let arguments = formula.names.replace(' ', ", ");
     let text = format!("f({arguments}) = {}", formula.ours);
     let derived = timed(|| Some(program(&text)?.evaluator(0, What::Gradient).is_ok()));
@@ -194,21 +296,17 @@ fn own(formula: &Formula, cells: &mut Cells) -> Result<(), Failure> {
             )
         })
     };
-    let integrated = match formula.names {
-        "x y z" => emitted(EmitWhat::Integral, Target::Wgsl),
-        _ => None,
-    };
-    let written = emitted(EmitWhat::Gradient, Target::Spirv);
-    let times = [derived, integrated, written, per_point(formula, &text)?];
-    for (what, time) in TIMED.into_iter().zip(times) {
-        if what == TIMED[1] && formula.names != "x y z" {
-            continue;
-        }
-        let shown = time.map_or_else(|| "none".to_owned(), |s| seconds(&s.to_string()));
-        cells.insert(
-            (what, formula.name.to_owned(), "pullback".to_owned()),
-            shown,
-        );
+    let mut put = |what, time| told.put(what, formula.name, "pullback", time);
+    put(TIMED[0], derived);
+    // a ray is one of space
+    if formula.names == "x y z" {
+        put(TIMED[1], emitted(EmitWhat::Integral, Target::Wgsl));
+    }
+    put(TIMED[2], emitted(EmitWhat::Gradient, Target::Spirv));
+    put(TIMED[3], per_point(formula, &text)?);
+    let compiled = program(&text).and_then(|made| compiled::per_point(&made, formula.names));
+    if let Some(time) = compiled {
+        told.put(TIMED[3], formula.name, COMPILED, Some(time));
     }
     Ok(())
 }
@@ -251,28 +349,25 @@ fn per_point(formula: &Formula, text: &str) -> Result<Option<f64>, Failure> {
     .map(|seconds| seconds / POINTS as f64))
 }
 
-/// What the script says; why nothing where there is no Python.
-fn asked() -> Result<String, String> {
-    let absent = |error: std::io::Error| format!("no peer can be asked: python3: {error}");
-    let mut child = Command::new("python3")
-        .args(["-c", SCRIPT])
+/// What the peers in Python say; why nothing where there is no Python.
+fn python() -> Result<String, String> {
+    let line = |f: &Formula| format!("{}\t{}\t{}\t{}\n", f.name, f.names, f.sympy, f.slang);
+    let input: String = FORMULAS.iter().map(line).collect();
+    answer(Command::new("python3").args(["-c", SCRIPT]), &input)
+}
+
+/// What a program writes, given a text; why it fails.
+fn answer(command: &mut Command, input: &str) -> Result<String, String> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let mut child = command
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()
-        .map_err(absent)?;
-    if let Some(mut input) = child.stdin.take() {
-        for Formula {
-            name,
-            names,
-            sympy,
-            slang,
-            ..
-        } in &FORMULAS
-        {
-            // who does not read says nothing
-            let _ = writeln!(input, "{name}\t{names}\t{sympy}\t{slang}");
-        }
+        .map_err(|error| format!("{name}: {error}"))?;
+    if let Some(mut to) = child.stdin.take() {
+        // who does not read says nothing
+        let _ = to.write_all(input.as_bytes());
     }
     let mut output = child.stdout.take();
     let reader = thread::spawn(move || {
@@ -283,7 +378,12 @@ fn asked() -> Result<String, String> {
         String::from_utf8_lossy(&text).into_owned()
     });
     wait(&mut child);
-    Ok(reader.join().unwrap_or_default())
+    let text = reader.join().unwrap_or_default();
+    match child.wait() {
+        Ok(status) if status.success() || !text.is_empty() => Ok(text),
+        Ok(status) => Err(format!("{name}: {status}")),
+        Err(error) => Err(format!("{name}: {error}")),
+    }
 }
 
 /// Until it ends, or for so long.
@@ -305,16 +405,16 @@ mod tests {
 
     #[test]
     fn all_formulas_are_our_own_language() {
-        let mut cells = Cells::new();
+        let mut told = Told::default();
         for formula in &FORMULAS {
-            own(formula, &mut cells).unwrap();
+            own(formula, &mut told).unwrap();
         }
         for formula in &FORMULAS {
-            for what in TIMED {
+            for what in TIMED.into_iter().filter(|&what| what != PICTURE) {
                 let key = (what, formula.name.to_owned(), "pullback".to_owned());
                 // a ray is one of space
                 let asked = formula.names == "x y z" || what != TIMED[1];
-                let found = cells.get(&key).map(String::as_str);
+                let found = told.cells.get(&key).map(String::as_str);
                 assert_eq!(found.is_some(), asked, "{what} of {}", formula.name);
                 assert_ne!(found, Some("none"), "{what} of {}", formula.name);
             }
@@ -326,7 +426,7 @@ mod tests {
         let text = written(
             &Cells::new(),
             &["pullback".to_owned()],
-            &["Slang".to_owned()],
+            &["Slang is missing here.".to_owned()],
         );
         assert!(text.ends_with("Slang is missing here.\n"), "{text}");
         assert_eq!(seconds("0.00251"), "2.51 ms");

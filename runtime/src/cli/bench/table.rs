@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use pullback_runtime::bench::median;
 
 use super::base::{Program, Run};
+use super::mebibytes;
 
 /// Writes milliseconds of every stage and picture, medians of the turns.
 pub(super) fn tell(run: &Run) -> io::Result<()> {
@@ -58,7 +59,7 @@ pub(super) fn tell(run: &Run) -> io::Result<()> {
     };
     let medians: Vec<f64> = names.iter().map(|name| all(name)).collect();
     line(&mut out, "median", width, &medians)?;
-    let mebibytes = |bytes: u64| bytes as f64 / f64::from(1 << 20);
+    counts(&mut out, run, width)?;
     if let Some(bytes) = run.peak_host_bytes {
         writeln!(
             out,
@@ -74,6 +75,20 @@ pub(super) fn tell(run: &Run) -> io::Result<()> {
         )?;
     }
     out.flush()
+}
+
+/// Instructions of the compiler, where they were counted.
+fn counts(out: &mut dyn Write, run: &Run, width: usize) -> io::Result<()> {
+    let counted = |p: &'_ Program| p.instructions.map(|count| (p.name.clone(), count));
+    let all: Vec<(String, u64)> = run.pictures.iter().filter_map(counted).collect();
+    if all.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\nmillions of instructions from the text to SPIR-V\n")?;
+    for (name, count) in all {
+        writeln!(out, "{name:<width$} {:>9.3}", 1e-6 * count as f64)?;
+    }
+    Ok(())
 }
 
 /// A line of milliseconds; the last column is the sum of the stages.

@@ -4,13 +4,17 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
-use pullback_runtime::bench::{STAGES, median};
+use pullback_runtime::bench::gradients::formulas::GRADIENTS;
+use pullback_runtime::bench::growth::TERMS;
+use pullback_runtime::bench::marches::densities::DENSITIES;
+use pullback_runtime::bench::twins::TWINS;
 use pullback_runtime::executor::Arithmetic;
 use pullback_runtime::{Gpu, atomic_file};
 
-use super::base::Run;
-use super::dots::Chart;
-use super::{BenchArguments, peers, tiers, timed};
+use super::large::{self, Large};
+use super::parts::Part;
+use super::programs::markdown;
+use super::{BenchArguments, compared, peers, report, tiers, timed};
 use crate::cli::failure::Failure;
 use crate::cli::gallery::{self, compare};
 use crate::cli::measure::{self, summary};
@@ -21,6 +25,8 @@ use crate::cli::{Console, Numbers, Tier};
 
 /// Turns of all programs at least, in a table.
 const FEWEST: usize = 3;
+/// Seconds that a line has at least, when the time is over.
+const SHORTEST: f64 = 0.1;
 
 /// A picture of each scene.
 const ONE_OF_EACH: [&str; 17] = [
@@ -43,71 +49,6 @@ const ONE_OF_EACH: [&str; 17] = [
     "ember",
 ];
 
-/// A table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Part {
-    /// What each program takes from text to picture (docs/performance.md)
-    Programs,
-    /// What each picture takes in each tier (docs/numerics.md)
-    Tiers,
-    /// What a picture's choices cost and give, one of each scene (docs/measure.md)
-    Choices,
-    /// How far pictures in `accurate` are from f64 (docs/gallery-differences.md)
-    Accurate,
-    /// How far pictures in `double` are from f64 (docs/gallery-differences.md)
-    Double,
-    /// Other programs at the same formulas (docs/performance.md)
-    Peers,
-}
-
-impl Part {
-    fn file(self) -> &'static str {
-        match self {
-            Self::Programs => "programs.md",
-            Self::Tiers => "tiers.md",
-            Self::Choices => "choices.md",
-            Self::Accurate => "accurate.md",
-            Self::Double => "double.md",
-            Self::Peers => "peers.md",
-        }
-    }
-
-    /// Its part of the time, by weight.
-    fn weight(self) -> f64 {
-        match self {
-            Self::Programs | Self::Peers => 1.0,
-            Self::Accurate | Self::Double => 2.0,
-            Self::Tiers => 3.0,
-            Self::Choices => 4.0,
-        }
-    }
-
-    fn chart(self) -> Option<Chart<'static>> {
-        match self {
-            Self::Programs => Some(Chart {
-                title: "From text to picture",
-                axis: "milliseconds",
-                columns: &[(6, "compiled"), (7, "picture")],
-            }),
-            Self::Tiers => Some(Chart {
-                title: "Time of a picture relative to fast",
-                axis: "ratio",
-                columns: &[(2, "accurate"), (3, "extended"), (4, "double")],
-            }),
-            Self::Choices => Some(Chart {
-                title: "Mean error of a picture",
-                axis: "FLIP",
-                columns: &[
-                    (2, "default"),
-                    (5, "not to be told from the truth"),
-                    (8, "at most half the time"),
-                ],
-            }),
-            Self::Accurate | Self::Double | Self::Peers => None,
-        }
-    }
-}
-
 /// Writes all tables that are wanted, within the budget as far as single pictures allow. What is there by then is kept.
 pub(super) fn run(
     arguments: &BenchArguments,
@@ -120,11 +61,7 @@ pub(super) fn run(
     })?;
     let gpu = super::super::open(&arguments.device.adapter, console)?;
     let wanted: Vec<Part> = match arguments.only.as_slice() {
-        [] => Part::value_variants()
-            .iter()
-            .copied()
-            .filter(|&part| part != Part::Peers)
-            .collect(),
+        [] => Part::value_variants().to_vec(),
         some => some.to_vec(),
     };
     let limit = Duration::try_from_secs_f64(arguments.budget).unwrap_or(Duration::MAX / 4);
@@ -142,6 +79,7 @@ pub(super) fn run(
             console,
         };
         missing += clerk.write(part)?;
+        report::write(folder)?;
     }
     if missing > 0 {
         console.warning(&format!(
@@ -168,16 +106,57 @@ impl Clerk<'_> {
         let size = self.arguments.size;
         let (text, missing) = match part {
             Part::Programs => self.programs(&path)?,
-            Part::Peers => {
-                let text = peers::table(self.console)?;
+            Part::Derivatives => {
+                let text = compared::derivatives(&self.subjects(part)?)?;
                 self.put(&path, &text)?;
                 (text, 0)
             }
-            Part::Tiers => self.lines(&path, tiers::head(&adapter, size), |subject, seconds| {
-                tiers::line(subject, self.gpu, seconds, self.console)
-            })?,
-            Part::Choices => {
-                self.lines(&path, summary::head(&adapter, size), |subject, seconds| {
+            Part::Peers => {
+                let text = peers::table(self.arguments, Some(self.gpu), self.console)?;
+                self.put(&path, &text)?;
+                (text, 0)
+            }
+            Part::Growth => self.lines(
+                &path,
+                compared::growth_head(),
+                TERMS.map(|terms| ((5 * terms).to_string(), terms)),
+                |&terms, _| compared::growth_line(terms),
+            )?,
+            Part::Gradients => self.lines(
+                &path,
+                compared::gradients_head(&adapter),
+                GRADIENTS.map(|gradient| (gradient.name.to_owned(), gradient)),
+                |gradient, _| compared::gradients_line(gradient, self.gpu),
+            )?,
+            Part::Twins => self.lines(
+                &path,
+                compared::twins_head(&adapter, size),
+                TWINS.map(|twin| (twin.scene.to_owned(), twin)),
+                |twin, seconds| compared::twins_line(twin, self.gpu, size, seconds, self.console),
+            )?,
+            Part::Marches => self.lines(
+                &path,
+                compared::marches_head(&adapter),
+                DENSITIES.map(|density| (density.name.to_owned(), density)),
+                |density, _| compared::marches_line(density, self.gpu),
+            )?,
+            Part::Large => self.lines(
+                &path,
+                large::head(&adapter),
+                Large::all().map(|large| (large.label(), large)),
+                |large, _| large.line(self.gpu, self.console),
+            )?,
+            Part::Tiers => self.lines(
+                &path,
+                tiers::head(&adapter, size),
+                self.labelled(part)?,
+                |subject, seconds| tiers::line(subject, self.gpu, seconds, self.console),
+            )?,
+            Part::Choices => self.lines(
+                &path,
+                summary::head(&adapter, size),
+                self.labelled(part)?,
+                |subject, seconds| {
                     let source = &subject.source;
                     measure::line(
                         &source.stem,
@@ -187,10 +166,10 @@ impl Clerk<'_> {
                         self.gpu,
                         self.console,
                     )
-                })?
-            }
-            Part::Accurate => self.differences(&path, Tier::Accurate)?,
-            Part::Double => self.differences(&path, Tier::Double)?,
+                },
+            )?,
+            Part::Accurate => self.differences(part, Tier::Accurate)?,
+            Part::Double => self.differences(part, Tier::Double)?,
         };
         if let Some(svg) = part.chart().and_then(|chart| chart.svg(&text)) {
             self.put(&path.with_extension("svg"), &svg)?;
@@ -206,41 +185,47 @@ impl Clerk<'_> {
     }
 
     /// The programs that are wanted; without any, those that this program carries.
-    fn subjects(&self, part: &Path) -> Result<Vec<Subject>, Failure> {
+    fn subjects(&self, part: Part) -> Result<Vec<Subject>, Failure> {
         let BenchArguments { inputs, size, .. } = self.arguments;
         let mut subjects = gallery::subjects(inputs, *size, self.console)?;
-        if inputs.is_empty() && part.ends_with(Part::Choices.file()) {
+        if inputs.is_empty() && part == Part::Choices {
             subjects.retain(|subject| ONE_OF_EACH.contains(&subject.source.stem.as_str()));
         }
         Ok(subjects)
     }
 
-    /// A table with a line for each program, which goes on where its file ends.
-    fn lines(
+    /// The same, with what their lines begin with.
+    fn labelled(&self, part: Part) -> Result<Vec<(String, Subject)>, Failure> {
+        let subjects = self.subjects(part)?.into_iter();
+        Ok(subjects.map(|s| (s.source.stem.clone(), s)).collect())
+    }
+
+    /// A table with a line for each item, which goes on where its file ends; with how many are missing at last.
+    fn lines<T>(
         &self,
         path: &Path,
         head: String,
-        line: impl Fn(&Subject, f64) -> Result<String, Failure>,
+        items: impl IntoIterator<Item = (String, T)>,
+        line: impl Fn(&T, f64) -> Result<String, Failure>,
     ) -> Result<(String, usize), Failure> {
         let mut table = summary::Table::open(head, Some(path))?;
-        let mut subjects = self.subjects(path)?;
-        subjects.retain(|subject| !table.has(&subject.source.stem));
-        let total = subjects.len();
-        for (k, subject) in subjects.iter().enumerate() {
+        let mut items: Vec<(String, T)> = items.into_iter().collect();
+        items.retain(|(label, _)| !table.has(label));
+        let total = items.len();
+        for (k, (label, item)) in items.iter().enumerate() {
             let now = Instant::now();
             // one at least, so that it ends some day
             if k > 0 && now > self.until {
                 return Ok((table.text().to_owned(), total - k));
             }
             let left = self.until.saturating_duration_since(now).as_secs_f64();
-            match line(subject, left / (total - k) as f64) {
+            match line(item, (left / (total - k) as f64).max(SHORTEST)) {
                 Ok(line) => table.add(&line)?,
                 // what is found so far is in the file
                 Err(failure) if self.gpu.is_lost() => return Err(failure),
                 Err(failure) => {
                     failure.report(self.console);
-                    self.console
-                        .warning(&format!("{} is left out", subject.source.name));
+                    self.console.warning(&format!("{label} is left out"));
                 }
             }
         }
@@ -248,7 +233,7 @@ impl Clerk<'_> {
     }
 
     /// How far pictures are from the same module in f64.
-    fn differences(&self, path: &Path, tier: Tier) -> Result<(String, usize), Failure> {
+    fn differences(&self, part: Part, tier: Tier) -> Result<(String, usize), Failure> {
         let with = |tier| Numbers {
             precision: Some(tier),
         };
@@ -256,7 +241,8 @@ impl Clerk<'_> {
         let there = (Computer::Processor(Arithmetic::Reference), with(tier));
         let names = [compare::told(&here), compare::told(&there)];
         let head = compare::head(&names, self.arguments.size);
-        self.lines(path, head, |subject, _| {
+        let path = self.folder.join(part.file());
+        self.lines(&path, head, self.labelled(part)?, |subject, _| {
             Ok(compare::Row::new(subject, [&here, &there], self.console)?.line())
         })
     }
@@ -266,7 +252,7 @@ impl Clerk<'_> {
         if let Ok(text) = std::fs::read_to_string(path) {
             return Ok((text, 0));
         }
-        let subjects = self.subjects(path)?;
+        let subjects = self.subjects(Part::Programs)?;
         let budget = self.until.saturating_duration_since(Instant::now());
         let run = timed(
             subjects,
@@ -279,36 +265,4 @@ impl Clerk<'_> {
         self.put(path, &text)?;
         Ok((text, 0))
     }
-}
-
-/// The times of a run: milliseconds of every stage and picture.
-fn markdown(run: &Run) -> String {
-    let stages = STAGES.len();
-    let mut text = format!(
-        "{}; {}x{} pixels of one sample; milliseconds, medians of {} turns\n\n| program | {} | compiled | picture |\n\
-         | --- |{}\n",
-        run.adapter.as_deref().unwrap_or("the compiler alone"),
-        run.width,
-        run.height,
-        run.calibration.len(),
-        STAGES.join(" | "),
-        " ---: |".repeat(stages + 2)
-    );
-    for program in &run.pictures {
-        let times: Vec<f64> = program
-            .times
-            .iter()
-            .map(|case| 1e3 * median(&case.seconds))
-            .collect();
-        let compiled: f64 = times.iter().take(stages).sum();
-        text += &format!("| {} |", program.name);
-        for time in &times[..stages.min(times.len())] {
-            text += &format!(" {time:.3} |");
-        }
-        let picture = times
-            .get(stages)
-            .map_or_else(|| "-".to_owned(), |time| format!("{time:.4}"));
-        text += &format!(" {compiled:.3} | {picture} |\n");
-    }
-    text
 }

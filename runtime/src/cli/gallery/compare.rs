@@ -4,9 +4,9 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use pullback_compiler::lower::Precision;
-use pullback_runtime::Size;
 use pullback_runtime::atomic_file::write_text;
-use pullback_runtime::difference::{self, Bitmap, Difference, PIXELS_PER_DEGREE};
+use pullback_runtime::difference::{Bitmap, Light, PIXELS_PER_DEGREE, Perceptual};
+use pullback_runtime::{Pipeline, Size};
 use serde::Serialize;
 
 use super::{GalleryArguments, Subjects, draw};
@@ -24,7 +24,8 @@ const VERSION: u32 = 1;
 pub(in crate::cli) struct Row {
     name: String,
     scene: &'static str,
-    found: Difference,
+    light: Light,
+    seen: Perceptual,
 }
 
 /// Draws every picture twice, and writes the tables. Those that cannot be drawn are told, and left out.
@@ -85,15 +86,25 @@ fn compared(
     subject: &Subject,
     computers: [&(Computer, Numbers); 2],
     console: &Console,
-) -> Result<Difference, Failure> {
-    let mut pictures = Vec::with_capacity(2);
-    for (computer, numbers) in computers {
-        let pixels = draw(subject, computer, *numbers, console)?;
-        let size = subject.frame(&[]).size;
-        pictures.push(Bitmap::from_rgba(size, &pixels)?);
-    }
-    difference::compare(&pictures[0], &pictures[1], &mut |_, _| {})
-        .map_err(Failure::writing("pictures"))
+) -> Result<(Light, Perceptual), Failure> {
+    let size = subject.frame(&[]).size;
+    let [truth, test] = computers.map(|(computer, numbers)| -> Result<Vec<[f32; 4]>, Failure> {
+        let bytes = draw(subject, computer, *numbers, Pipeline::Linear, console)?;
+        let pixels = bytes.as_chunks::<16>().0.iter();
+        let number = |pixel: &[u8; 16], k: usize| {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|j| pixel[4 * k + j]);
+            f32::from_le_bytes([a, b, c, d])
+        };
+        Ok(pixels.map(|p| [0, 1, 2, 3].map(|k| number(p, k))).collect())
+    });
+    let (truth, test) = (truth?, test?);
+    let seen = Perceptual::new(
+        &Bitmap::from_linear(size, &truth)?,
+        &Bitmap::from_linear(size, &test)?,
+        &mut |_, _| {},
+    );
+    let seen = seen.map_err(Failure::writing("pictures"))?;
+    Ok((Light::apart(&truth, &test), seen))
 }
 
 /// The head of the table of two computers.
@@ -113,17 +124,23 @@ impl Row {
         computers: [&(Computer, Numbers); 2],
         console: &Console,
     ) -> Result<Self, Failure> {
+        let (light, seen) = compared(subject, computers, console)?;
         Ok(Self {
             name: subject.source.stem.clone(),
             scene: subject.picture().scene.name,
-            found: compared(subject, computers, console)?,
+            light,
+            seen,
         })
     }
 
     /// Its line of the table.
     pub(in crate::cli) fn line(&self) -> String {
-        let Self { name, scene, found } = self;
-        let (worst, seen) = (found.numeric.worst(), &found.perceptual);
+        let Self {
+            name,
+            scene,
+            light,
+            seen,
+        } = self;
         let [x, y] = seen.worst;
         let place = if seen.max > 0.0 {
             format!("{x},{y}")
@@ -131,10 +148,10 @@ impl Row {
             String::new()
         };
         format!(
-            "| {name} | {scene} | {:.3} % | {:.4} | {:.4} | {:.6} | {:.4} | {place} |\n",
-            100.0 * found.numeric.shares[0],
-            worst.p999,
-            worst.max,
+            "| {name} | {scene} | {:.3} % | {:.1e} | {:.1e} | {:.6} | {:.4} | {place} |\n",
+            100.0 * light.share,
+            light.p999,
+            light.max,
             seen.mean,
             seen.max
         )
@@ -224,13 +241,13 @@ struct JsonRow<'a> {
 
 impl<'a> JsonRow<'a> {
     fn new(row: &'a Row) -> Self {
-        let (worst, seen) = (row.found.numeric.worst(), &row.found.perceptual);
+        let Row { light, seen, .. } = row;
         Self {
             name: &row.name,
             scene: row.scene,
-            over_255: row.found.numeric.shares[0],
-            p999: worst.p999,
-            max: worst.max,
+            over_255: light.share,
+            p999: light.p999,
+            max: light.max,
             flip_mean: seen.mean,
             flip_max: seen.max,
             worst_pixel: seen.worst,

@@ -1,3 +1,0 @@
-fn f(z: vec2f) -> vec2f {
-    return cpow(z, z);
-}
