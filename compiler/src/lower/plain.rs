@@ -52,7 +52,9 @@ fn rewritten(g: &mut Graph, node: &Node, args: &[Id]) -> Option<Id> {
             without_zero(g, prim, x, y).or_else(|| common_factor(g, prim, x, y))
         }
         // rests of roundings are for those who keep bounds
-        (Prim::SumRest | Prim::MulAddRest | Prim::SineRest | Prim::CosineRest, _) => Some(g.real(0.0)),
+        (Prim::SumRest | Prim::MulAddRest | Prim::SineRest | Prim::CosineRest, _) => {
+            Some(g.real(0.0))
+        }
         (Prim::MulAdd, &[x, y, z]) => shorter_sum(g, x, y, z),
         (Prim::Hypot | Prim::Hypot3, parts) => {
             let squares: SmallVec<[Id; 3]> = parts.iter().map(|&x| g.mul(x, x)).collect();
