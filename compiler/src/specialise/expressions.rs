@@ -1,6 +1,6 @@
 //! The expressions of a function that is made anew: folded where they are known, else with what their operands have become.
 
-use naga::{Expression, Handle, Literal, Span, Type, TypeInner};
+use naga::{Expression, Handle, Literal, LocalVariable, ScalarKind, Span, Type, TypeInner};
 
 use super::function::{Fixed, Rewriter, Slot};
 use super::known::Known;
@@ -32,9 +32,20 @@ impl<'a> Rewriter<'a, '_> {
             self.slots[handle.index()] = self.slots[taken.index()].clone();
             return;
         }
-        each_operand(&mut expression, &mut |operand| {
-            *operand = self.operand(*operand);
-        });
+        let bits = match expression {
+            Expression::As {
+                expr,
+                kind: ScalarKind::Float,
+                convert: None,
+            } => self.known(expr).cloned(),
+            _ => None,
+        };
+        match bits {
+            Some(bits) => self.hide_bits(&mut expression, &bits),
+            None => each_operand(&mut expression, &mut |operand| {
+                *operand = self.operand(*operand);
+            }),
+        }
         let span = self.old.expressions.get_span(handle);
         let start = self.expressions.len();
         let made = self.expressions.append(expression, span);
@@ -43,6 +54,32 @@ impl<'a> Rewriter<'a, '_> {
             known: None,
             at: Some(made),
         };
+    }
+
+    /// Lets bits that are no plain number be read from a variable: as constants, an infinity or NaN made of them would be
+    /// refused (WGSL, 8.1: the value of a constant expression is finite).
+    fn hide_bits(&mut self, expression: &mut Expression, bits: &Known) {
+        let ty = match bits {
+            Known::Composite(ty, _) => *ty,
+            Known::Scalar(literal) => self.pools.scalar(literal.scalar()),
+        };
+        let init = self.made(bits, ty);
+        let variable = LocalVariable {
+            name: None,
+            ty,
+            init: Some(init),
+        };
+        let variable = self.locals.append(variable, Span::UNDEFINED);
+        self.flush();
+        let pointer = Expression::LocalVariable(variable);
+        let pointer = self.expressions.append(pointer, Span::UNDEFINED);
+        let start = self.expressions.len();
+        let load = Expression::Load { pointer };
+        let load = self.expressions.append(load, Span::UNDEFINED);
+        self.run.get_or_insert(start);
+        if let Expression::As { expr, .. } = expression {
+            *expr = load;
+        }
     }
 
     /// What an operand has become, made if it is a known value.

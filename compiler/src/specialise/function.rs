@@ -58,6 +58,7 @@ pub struct Rewriter<'a, 'm> {
     functions: &'a Arena<Function>,
     arguments: Vec<Option<Known>>,
     pub(super) expressions: Arena<Expression>,
+    pub(super) locals: Arena<LocalVariable>,
     pub(super) slots: Vec<Slot>,
     pub(super) literals: FxHashMap<Key, Handle<Expression>>,
     /// Locals whose every use is seen, and the values of those that are known here.
@@ -94,6 +95,7 @@ impl<'a, 'm> Rewriter<'a, 'm> {
             functions,
             arguments,
             expressions: Arena::new(),
+            locals: Arena::new(),
             slots: vec![Slot::default(); old.expressions.len()],
             literals: FxHashMap::default(),
             tracked: tracked(old),
@@ -114,7 +116,7 @@ impl<'a, 'm> Rewriter<'a, 'm> {
                 self.declare(handle, expression);
             }
         }
-        let local_variables = self.local_variables()?;
+        self.locals = self.local_variables()?;
         let (body, _) = self.block(&self.old.body)?;
         if !self.is_sound {
             return Err(Unforeseen);
@@ -134,7 +136,7 @@ impl<'a, 'm> Rewriter<'a, 'm> {
             name: self.old.name.clone(),
             arguments: self.old.arguments.clone(),
             result: self.old.result.clone(),
-            local_variables,
+            local_variables: self.locals,
             expressions: self.expressions,
             named_expressions,
             body,

@@ -33,6 +33,13 @@ impl<'a> Pools<'a> {
         &self.types[ty].inner
     }
 
+    /// The type of a number.
+    pub fn scalar(&mut self, scalar: Scalar) -> Handle<Type> {
+        let inner = TypeInner::Scalar(scalar);
+        self.types
+            .insert(Type { name: None, inner }, Span::UNDEFINED)
+    }
+
     /// The vector of these numbers; `None` if they are none, or of different kinds.
     pub fn vector(&mut self, parts: Vec<Known>) -> Option<Known> {
         let size = match parts.len() {

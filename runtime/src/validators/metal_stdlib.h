@@ -6,6 +6,8 @@
 #include <cstring>
 
 #define constant static const
+// the C library has one of this name, too
+#define abs abs_of_metal
 
 namespace metal {
 
@@ -32,6 +34,9 @@ struct float2 {
         swizzle<float2, float, 2, 1, 1> yy;
     };
     float2() : data{} {}
+    explicit float2(int2 v);
+    explicit float2(uint2 v);
+    explicit float2(bool2 v);
     explicit float2(float s) : data{s, s} {}
     float2(float a, float b) : data{a, b} {}
     float& operator[](int k) { return data[k]; }
@@ -80,6 +85,9 @@ struct float3 {
         swizzle<float3, float, 3, 2, 2, 2> zzz;
     };
     float3() : data{} {}
+    explicit float3(int3 v);
+    explicit float3(uint3 v);
+    explicit float3(bool3 v);
     explicit float3(float s) : data{s, s, s} {}
     float3(float a, float b, float c) : data{a, b, c} {}
     float3(float2 a, float b);
@@ -174,6 +182,9 @@ struct float4 {
         swizzle<float3, float, 4, 3, 3, 3> www;
     };
     float4() : data{} {}
+    explicit float4(int4 v);
+    explicit float4(uint4 v);
+    explicit float4(bool4 v);
     explicit float4(float s) : data{s, s, s, s} {}
     float4(float a, float b, float c, float d) : data{a, b, c, d} {}
     float4(float3 a, float b);
@@ -197,6 +208,9 @@ struct int2 {
         struct { int x, y; };
     };
     int2() : data{} {}
+    explicit int2(float2 v);
+    explicit int2(uint2 v);
+    explicit int2(bool2 v);
     explicit int2(int s) : data{s, s} {}
     int2(int a, int b) : data{a, b} {}
     int& operator[](int k) { return data[k]; }
@@ -209,6 +223,9 @@ struct int3 {
         struct { int x, y, z; };
     };
     int3() : data{} {}
+    explicit int3(float3 v);
+    explicit int3(uint3 v);
+    explicit int3(bool3 v);
     explicit int3(int s) : data{s, s, s} {}
     int3(int a, int b, int c) : data{a, b, c} {}
     int3(int2 a, int b);
@@ -223,6 +240,9 @@ struct int4 {
         struct { int x, y, z, w; };
     };
     int4() : data{} {}
+    explicit int4(float4 v);
+    explicit int4(uint4 v);
+    explicit int4(bool4 v);
     explicit int4(int s) : data{s, s, s, s} {}
     int4(int a, int b, int c, int d) : data{a, b, c, d} {}
     int4(int3 a, int b);
@@ -246,6 +266,9 @@ struct uint2 {
         struct { uint x, y; };
     };
     uint2() : data{} {}
+    explicit uint2(float2 v);
+    explicit uint2(int2 v);
+    explicit uint2(bool2 v);
     explicit uint2(uint s) : data{s, s} {}
     uint2(uint a, uint b) : data{a, b} {}
     uint& operator[](int k) { return data[k]; }
@@ -258,6 +281,9 @@ struct uint3 {
         struct { uint x, y, z; };
     };
     uint3() : data{} {}
+    explicit uint3(float3 v);
+    explicit uint3(int3 v);
+    explicit uint3(bool3 v);
     explicit uint3(uint s) : data{s, s, s} {}
     uint3(uint a, uint b, uint c) : data{a, b, c} {}
     uint3(uint2 a, uint b);
@@ -272,6 +298,9 @@ struct uint4 {
         struct { uint x, y, z, w; };
     };
     uint4() : data{} {}
+    explicit uint4(float4 v);
+    explicit uint4(int4 v);
+    explicit uint4(bool4 v);
     explicit uint4(uint s) : data{s, s, s, s} {}
     uint4(uint a, uint b, uint c, uint d) : data{a, b, c, d} {}
     uint4(uint3 a, uint b);
@@ -295,6 +324,9 @@ struct bool2 {
         struct { bool x, y; };
     };
     bool2() : data{} {}
+    explicit bool2(float2 v);
+    explicit bool2(int2 v);
+    explicit bool2(uint2 v);
     explicit bool2(bool s) : data{s, s} {}
     bool2(bool a, bool b) : data{a, b} {}
     bool& operator[](int k) { return data[k]; }
@@ -307,6 +339,9 @@ struct bool3 {
         struct { bool x, y, z; };
     };
     bool3() : data{} {}
+    explicit bool3(float3 v);
+    explicit bool3(int3 v);
+    explicit bool3(uint3 v);
     explicit bool3(bool s) : data{s, s, s} {}
     bool3(bool a, bool b, bool c) : data{a, b, c} {}
     bool3(bool2 a, bool b);
@@ -321,6 +356,9 @@ struct bool4 {
         struct { bool x, y, z, w; };
     };
     bool4() : data{} {}
+    explicit bool4(float4 v);
+    explicit bool4(int4 v);
+    explicit bool4(uint4 v);
     explicit bool4(bool s) : data{s, s, s, s} {}
     bool4(bool a, bool b, bool c, bool d) : data{a, b, c, d} {}
     bool4(bool3 a, bool b);
@@ -337,6 +375,43 @@ inline bool4::bool4(bool3 a, bool b) : data{a.x, a.y, a.z, b} {}
 inline bool4::bool4(bool a, bool3 b) : data{a, b.x, b.y, b.z} {}
 inline bool4::bool4(bool2 a, bool2 b) : data{a.x, a.y, b.x, b.y} {}
 inline bool4::bool4(bool2 a, bool b, bool c) : data{a.x, a.y, b, c} {}
+
+inline float2::float2(int2 v) : data{float(v.x), float(v.y)} {}
+inline float2::float2(uint2 v) : data{float(v.x), float(v.y)} {}
+inline float2::float2(bool2 v) : data{float(v.x), float(v.y)} {}
+inline float3::float3(int3 v) : data{float(v.x), float(v.y), float(v.z)} {}
+inline float3::float3(uint3 v) : data{float(v.x), float(v.y), float(v.z)} {}
+inline float3::float3(bool3 v) : data{float(v.x), float(v.y), float(v.z)} {}
+inline float4::float4(int4 v) : data{float(v.x), float(v.y), float(v.z), float(v.w)} {}
+inline float4::float4(uint4 v) : data{float(v.x), float(v.y), float(v.z), float(v.w)} {}
+inline float4::float4(bool4 v) : data{float(v.x), float(v.y), float(v.z), float(v.w)} {}
+inline int2::int2(float2 v) : data{int(v.x), int(v.y)} {}
+inline int2::int2(uint2 v) : data{int(v.x), int(v.y)} {}
+inline int2::int2(bool2 v) : data{int(v.x), int(v.y)} {}
+inline int3::int3(float3 v) : data{int(v.x), int(v.y), int(v.z)} {}
+inline int3::int3(uint3 v) : data{int(v.x), int(v.y), int(v.z)} {}
+inline int3::int3(bool3 v) : data{int(v.x), int(v.y), int(v.z)} {}
+inline int4::int4(float4 v) : data{int(v.x), int(v.y), int(v.z), int(v.w)} {}
+inline int4::int4(uint4 v) : data{int(v.x), int(v.y), int(v.z), int(v.w)} {}
+inline int4::int4(bool4 v) : data{int(v.x), int(v.y), int(v.z), int(v.w)} {}
+inline uint2::uint2(float2 v) : data{uint(v.x), uint(v.y)} {}
+inline uint2::uint2(int2 v) : data{uint(v.x), uint(v.y)} {}
+inline uint2::uint2(bool2 v) : data{uint(v.x), uint(v.y)} {}
+inline uint3::uint3(float3 v) : data{uint(v.x), uint(v.y), uint(v.z)} {}
+inline uint3::uint3(int3 v) : data{uint(v.x), uint(v.y), uint(v.z)} {}
+inline uint3::uint3(bool3 v) : data{uint(v.x), uint(v.y), uint(v.z)} {}
+inline uint4::uint4(float4 v) : data{uint(v.x), uint(v.y), uint(v.z), uint(v.w)} {}
+inline uint4::uint4(int4 v) : data{uint(v.x), uint(v.y), uint(v.z), uint(v.w)} {}
+inline uint4::uint4(bool4 v) : data{uint(v.x), uint(v.y), uint(v.z), uint(v.w)} {}
+inline bool2::bool2(float2 v) : data{bool(v.x), bool(v.y)} {}
+inline bool2::bool2(int2 v) : data{bool(v.x), bool(v.y)} {}
+inline bool2::bool2(uint2 v) : data{bool(v.x), bool(v.y)} {}
+inline bool3::bool3(float3 v) : data{bool(v.x), bool(v.y), bool(v.z)} {}
+inline bool3::bool3(int3 v) : data{bool(v.x), bool(v.y), bool(v.z)} {}
+inline bool3::bool3(uint3 v) : data{bool(v.x), bool(v.y), bool(v.z)} {}
+inline bool4::bool4(float4 v) : data{bool(v.x), bool(v.y), bool(v.z), bool(v.w)} {}
+inline bool4::bool4(int4 v) : data{bool(v.x), bool(v.y), bool(v.z), bool(v.w)} {}
+inline bool4::bool4(uint4 v) : data{bool(v.x), bool(v.y), bool(v.z), bool(v.w)} {}
 
 #define EACH(V, N, value) V out; for (int k = 0; k < N; k++) out[k] = value; return out;
 #define OPERATOR(V, T, N, op) \
@@ -408,6 +483,12 @@ inline bool isinf(float x) { return x == x && x - x != x - x; }
     inline bool any(bool##N a) { for (int k = 0; k < N; k++) if (a[k]) return true; return false; }
 FLOATS(2) FLOATS(3) FLOATS(4)
 #define WHOLES(V, T, N) \
+    COMPARE(V, bool##N, N, <) COMPARE(V, bool##N, N, <=) COMPARE(V, bool##N, N, >) \
+    COMPARE(V, bool##N, N, >=) COMPARE(V, bool##N, N, ==) COMPARE(V, bool##N, N, !=) \
+    TWO(V, N, min) TWO(V, N, max) \
+    inline V operator-(V a) { EACH(V, N, -a[k]) } \
+    inline V operator~(V a) { EACH(V, N, ~a[k]) } \
+    inline V select(V a, V b, bool##N c) { EACH(V, N, c[k] ? b[k] : a[k]) } \
     OPERATOR(V, T, N, +) OPERATOR(V, T, N, -) OPERATOR(V, T, N, *) OPERATOR(V, T, N, &) OPERATOR(V, T, N, |) OPERATOR(V, T, N, ^) \
     OPERATOR(V, T, N, <<) OPERATOR(V, T, N, >>)
 WHOLES(int2, int, 2) WHOLES(int3, int, 3) WHOLES(int4, int, 4)
