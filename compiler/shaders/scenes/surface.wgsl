@@ -168,11 +168,12 @@ fn search_on(search: Search, jet: vec2f, level: f32, count: f32, grain: f32) -> 
 
 struct Hit {
     k: f32,          // where, in steps of the path
+    t: f32,          // and in world units from its beginning, for those who measure depths
     found: bool,
     touching: bool,  // the ray touches the level without crossing it
 }
 
-const NO_HIT: Hit = Hit(0.0, false, false);
+const NO_HIT: Hit = Hit(0.0, 0.0, false, false);
 
 // The part of a ray inside of the box, from its entry on, so that f32 resolves it wherever the ray begins: origin + k stride
 // for k from 0 to count.
@@ -234,7 +235,7 @@ fn march(path: Path, grain: f32) -> Hit {
             }
         }
         if has_met(search) {
-            return Hit(search.k, true, search.state == SEARCH_TOUCHED);
+            return Hit(search.k, search.k * length(path.stride), true, search.state == SEARCH_TOUCHED);
         }
     }
     return NO_HIT;

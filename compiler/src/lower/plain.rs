@@ -178,13 +178,29 @@ fn is_finite(g: &Graph, x: Id) -> bool {
     !matches!(g.node(x).op, Op::Apply(_))
 }
 
-/// x y + z where one of them is 0.
+/// x y + z where one of them is 0, and x y - x y, which is what rounding took from a product.
 fn shorter_sum(g: &mut Graph, x: Id, y: Id, z: Id) -> Option<Id> {
     if g.as_real(z) == Some(0.0) {
         return product(g, x, y).or_else(|| Some(g.mul(x, y)));
     }
+    if is_negative_product(g, z, x, y) {
+        return Some(g.real(0.0));
+    }
     let is_zero = |g: &Graph, x: Id| g.as_real(x) == Some(0.0);
     (is_zero(g, x) || is_zero(g, y)).then_some(z)
+}
+
+/// Whether z is -x y, as it stands or with a constant factor.
+fn is_negative_product(g: &Graph, z: Id, x: Id, y: Id) -> bool {
+    let is_both = |a: Id, b: Id| (a, b) == (x, y) || (a, b) == (y, x);
+    if let Some((c, w)) = constant_factor(g, z) {
+        return [(x, y), (y, x)]
+            .into_iter()
+            .any(|(x, y)| y == w && g.as_real(x) == Some(-c));
+    }
+    let node = g.node(z);
+    node.op == Op::Apply(Prim::Neg)
+        && operands(g, node.args[0], Prim::Mul).is_some_and(|[a, b]| is_both(a, b))
 }
 
 /// x + 0, 0 + x and x - 0.

@@ -173,7 +173,7 @@ mod tests {
                 "HOME" => home.map(OsString::from),
                 _ => None,
             });
-            let expected = expected.map(|base| Path::new(base).join("pullback/adapters"));
+            let expected = expected.map(|base| Path::new(base).join("pullback"));
             assert_eq!(found, expected, "{xdg:?} {home:?}");
         };
         let cache = if cfg!(target_os = "macos") {

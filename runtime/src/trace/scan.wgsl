@@ -52,7 +52,7 @@ fn record_vec4(site: u32, value: vec4f) {
     look(bitcast<u32>(value.w));
 }
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(8, 16)
 fn compute_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
         return;

@@ -21,7 +21,7 @@ var<private> closed: bool;
 
 fn shade(pixel: vec2f) -> vec4f { return vec4f(); }
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(8, 16)
 fn linear_main(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= view.tile_size) {
         return;
