@@ -18,7 +18,9 @@ const CAREFUL: usize = 20;
 pub(super) fn plain(graph: &Graph, roots: &[Id]) -> Option<(Graph, Vec<Id>)> {
     let mut out = Graph::new();
     let new = transcribe(graph, roots, &mut out, |out, node, args| {
-        rewritten(out, node, args).unwrap_or_else(|| out.intern(node.op, node.ty, args))
+        rewritten(out, node, args)
+            .or_else(|| of_constants(out, node, args))
+            .unwrap_or_else(|| out.intern(node.op, node.ty, args))
     });
     (operations(&out, &new) < operations(graph, roots)).then_some((out, new))
 }
@@ -33,10 +35,24 @@ fn operations(graph: &Graph, roots: &[Id]) -> usize {
     graph.ids().filter(|id| live[id.index()]).map(of).sum()
 }
 
+/// What is left of operands that have become constants.
+fn of_constants(g: &mut Graph, node: &Node, args: &[Id]) -> Option<Id> {
+    let Op::Apply(prim) = node.op else {
+        return None;
+    };
+    let is_constant = |&id: &Id| matches!(g.node(id).op, Op::Const(_) | Op::Truth(_));
+    (node.ty != Ty::Complex && args.iter().all(is_constant)).then(|| g.apply(prim, args))
+}
+
 fn rewritten(g: &mut Graph, node: &Node, args: &[Id]) -> Option<Id> {
     let Op::Apply(prim) = node.op else {
         return None;
     };
+    if let (Prim::Select, &[condition, yes, no]) = (prim, args)
+        && let Op::Truth(is_so) = g.node(condition).op
+    {
+        return Some(if is_so { yes } else { no });
+    }
     if node.ty != Ty::Real || args.iter().any(|&a| g.ty(a) == Ty::Complex) {
         return None;
     }

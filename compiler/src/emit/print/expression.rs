@@ -322,6 +322,11 @@ impl FunctionPrinter<'_, '_> {
             let list = self.list(&[left, right])?;
             return Ok(Text::name(format!("{word}({list})")));
         }
+        // which a signed number may not be shifted by there
+        let is_unsigned_shift = dialect == Dialect::Godot
+            && matches!(op, BinaryOperator::ShiftLeft | BinaryOperator::ShiftRight)
+            && self.kind(left) == ScalarKind::Sint
+            && self.kind(right) == ScalarKind::Uint;
         let (least_left, least_right, rank) = ranks(sign);
         let (left, right) = if matches!(sign, "+" | "-" | "*" | "/") {
             (self.operand(left, right)?, self.operand(right, left)?)
@@ -335,7 +340,11 @@ impl FunctionPrinter<'_, '_> {
             rank::BITS if same && is_chain(&left.text, sign) => left.text,
             _ => left.within(least_left),
         };
-        let right = right.within(least_right);
+        let right = if is_unsigned_shift {
+            format!("int({})", right.text)
+        } else {
+            right.within(least_right)
+        };
         Ok(Text {
             text: format!("{left} {sign} {right}"),
             rank,
