@@ -229,8 +229,7 @@ fn godot_draws_level_lines_and_phases_as_they_are() {
         let mut evaluator = program.evaluator(0, what).expect("an evaluator");
         let setting = |name: &str| {
             let mut all = program.pictures()[0].settings.iter();
-            all.find(|s| s.spec.name == name)
-                .map(|s| f64::from(s.value.x))
+            all.find(|s| s.spec.name == name).map(|s| s.value.x)
         };
         let height = setting("height").expect("a height");
         let spacing = setting("spacing").filter(|&s| s > 0.0).unwrap_or(0.25);
