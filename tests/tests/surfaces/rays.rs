@@ -67,8 +67,8 @@ fn observe(found: &mut [Found], lane: usize, event: &Event) {
     match event.site.kind {
         SiteKind::Enter => {
             let values = reals(event);
-            assert_eq!(values.len(), 10, "base, direction, hit, on_ground");
-            let hit = values[7] > 0.5;
+            assert_eq!(values.len(), 11, "base, direction, hit, on_ground");
+            let hit = values[8] > 0.5;
             found[lane].hit = hit.then(|| [values[0], values[1], values[2]]);
         }
         SiteKind::Leave => {
