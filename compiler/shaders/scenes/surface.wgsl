@@ -207,9 +207,9 @@ struct Walk {
     half: f32,    // f - level is between 0 and twice this at the next sample, unless something is to be searched
 }
 
-// The first hit on a path, to `grain` of a step or better. The inner loop only walks, by values alone, to where f changes its sign or, near the level,
-// comes no nearer, so that rays side by side walk together to where each has something to search, and then search together,
-// with slopes. Most of a frame are its steps: they take few operations.
+// The first hit on a path, to about the square of `grain`, in steps. The inner loop only walks, by values alone, to where f
+// changes its sign or, near the level, comes no nearer, so that rays side by side walk together to where each has something
+// to search, and then search together, with slopes. Most of a frame are its steps: they take few operations.
 fn march(path: Path, grain: f32) -> Hit {
     if !(path.count > 0.0) {
         return NO_HIT;

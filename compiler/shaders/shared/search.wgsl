@@ -20,7 +20,8 @@ struct Search {
     low: Sample,   // the end of what is searched that is nearer to the eye; of an edge, the valid end
     high: Sample,  // the other end
     size: f32,     // greatest |f - level| of the samples that it began with; of an edge, f - level at the step's valid end
-    weight: f32,   // of the slope at `low` against that at `high`; of an edge, where that end is
+    weight: f32,   // of the slope at `low` against that at `high`; of an edge, where that end is; of a root, how wide the
+                   // bracket was that it began with
 }
 
 // Looked for is which side of a sample an extremum is on, f at the other end of that side, an extremum, a root, where f
@@ -74,7 +75,8 @@ fn search_ended(before: Search, state: u32) -> Search {
     return search;
 }
 
-// Takes f and its slope at search.k, of a march of `count` steps. A level is met where Newton's step is no longer than `grain`.
+// Takes f and its slope at search.k, of a march of `count` steps. A level is met where Newton's step is no longer than the
+// part `grain` of the bracket that the search began with.
 fn search_on(search: Search, jet: vec2f, level: f32, count: f32, grain: f32) -> Search {
     let found = sample_with_slope(search.k, jet, level);
     if search.state == SEARCH_EDGE {
@@ -241,7 +243,7 @@ fn nearer_end(search: Search) -> Sample {
 // does not shrink with the bracket is a pole or a jump. `size` is a value of it beside them, or what is a small one.
 fn search_root(a: Sample, b: Sample, size: f32) -> Search {
     let k = mix(a.k, b.k, clamp(a.value / (a.value - b.value), 0.001, 0.999));
-    return Search(SEARCH_ROOT, 0u, k, a, b, max(size, max(abs(a.value), abs(b.value))), 1.0);
+    return Search(SEARCH_ROOT, 0u, k, a, b, max(size, max(abs(a.value), abs(b.value))), b.k - a.k);
 }
 
 fn newton_place(sample: Sample) -> f32 {
@@ -263,7 +265,7 @@ fn searched_root(before: Search, found: Sample, count: f32, grain: f32) -> Searc
     let shrinks = abs(found.value) < 0.25 * search.size;
     let leads = (found.slope != 0.0) & ((found.slope > 0.0) == (before.low.value < 0.0));
     // what is left is about the square of that
-    if shrinks & leads & inside & (abs(place - found.k) <= grain) {
+    if shrinks & leads & inside & (abs(place - found.k) <= grain * search.weight) {
         search.k = place;
         search.state = SEARCH_CROSSED;
         return search;

@@ -110,7 +110,7 @@ fn seen_shells(before: Seen, sight: Sight, part: vec2f, half_size: vec3f, steps:
             while turning || is_searching(aim.search) {
                 if is_searching(aim.search) {
                     let goal = goal_of(aim, walk);
-                    aim.search = search_on(aim.search, field_ray(origin, stride, aim.search.k), goal, count, 1e-4);
+                    aim.search = search_on(aim.search, field_ray(origin, stride, aim.search.k), goal, count, 1e-3);
                     if !turning && has_rest(aim.search) {
                         let stopped = walk;
                         walk = walk_to_rest(stopped, aim.search, goal, shells.family);
