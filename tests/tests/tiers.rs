@@ -108,6 +108,36 @@ fn evaluate(program: &Program, tier: Tier, rows: &[f64]) -> Vec<f64> {
     out
 }
 
+/// The shorter hash of `fast` has the digits of the other, also left of 0 and from one cell to the next.
+#[test]
+fn noise_is_the_same_in_fast() {
+    let text = "f(x, y) = noise((x, y, x - y)) + noise((x y, 7 x)) + fbm((y, x, 2 x), 3)";
+    let program = compile(text).program.expect("it compiles");
+    let rows: Vec<f64> = (0..4000)
+        .map(|k| f64::from(k % 211) * 0.1875 - 19.5 + f64::from(k % 7))
+        .collect();
+    let of = |precision: Precision| evaluate(&program, precision.into(), &rows);
+    let (accurate, fast) = (of(Precision::Accurate), of(Precision::Fast));
+    for (a, b) in accurate.iter().zip(&fast) {
+        assert!((a - b).abs() <= 2e-5, "{a} and {b}");
+    }
+    let spread = accurate.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+    assert!(spread > 0.5, "{spread}");
+}
+
+/// What integrals keep of their roundings is for the tiers that have bounds.
+#[test]
+fn fast_takes_no_rests() {
+    let text = "f(x, y, z) = sin(9 z - 2.5) + (x^2 + y^2 - 1)^2";
+    let program = compile(text).program.expect("it compiles");
+    let emitted = |precision: Precision| {
+        let bytes = program.emit(0, EmitWhat::Integral, Target::Wgsl, precision);
+        String::from_utf8(bytes.expect("an integral")).expect("text")
+    };
+    assert!(emitted(Precision::Accurate).contains("_rest("));
+    assert!(!emitted(Precision::Fast).contains("_rest("));
+}
+
 /// Decorated shaders go past wgpu, so both stages and all bindings are tried.
 #[test]
 fn pictures_are_the_same_in_every_exact_form_and_stage() {

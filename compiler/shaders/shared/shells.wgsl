@@ -116,11 +116,11 @@ fn seen_shells(before: Seen, sight: Sight, part: vec2f, half_size: vec3f, steps:
                         walk = walk_to_rest(stopped, aim.search, goal, shells.family);
                         aim = aim_at_rest(stopped, walk, value, aim.search, shells.family);
                     }
-                } else if has_met(aim.search) {
-                    turning = false;
                 } else {
                     turning = false;
-                    aim = aim_in_step(walk, value, shells.family);
+                    if !has_met(aim.search) {
+                        aim = aim_in_step(walk, value, shells.family);
+                    }
                 }
             }
             met = has_met(aim.search);
