@@ -11,6 +11,7 @@ use naga::back::spv;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::ModuleInfo;
 
+use crate::shader::CHECKS;
 use crate::{Error, Gpu};
 
 /// First word of every SPIR-V module.
@@ -76,6 +77,7 @@ fn write(module: &Module, info: &ModuleInfo) -> Result<Vec<u32>, String> {
             image_load: restricted,
             binding_array: BoundsCheckPolicy::Unchecked,
         },
+        force_loop_bounding: CHECKS.force_loop_bounding,
         ..spv::Options::default()
     };
     spv::write_vec(module, info, &options, None).map_err(|error| error.to_string())

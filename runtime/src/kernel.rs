@@ -8,13 +8,11 @@
 //! @group(0) @binding(2) var<uniform> batch: vec4u;  // invocations, a zero nobody knows, and two of the caller's
 //! ```
 
-use std::borrow::Cow;
-
 use naga::Module;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 use crate::buffers::{self, Growing};
-use crate::{Error, Gpu, decorate};
+use crate::{Error, Gpu, decorate, shader};
 
 /// Invocations of a workgroup.
 const WORKGROUP: u32 = 64;
@@ -55,13 +53,7 @@ impl Kernel {
     pub fn new(gpu: &Gpu, wgsl: &str, contraction: Contraction) -> Result<Self, Error> {
         let (module, info) = parse(wgsl)?;
         let shader = match contraction {
-            Contraction::Allowed => gpu.guarded("loading a kernel", || {
-                gpu.device()
-                    .create_shader_module(wgpu::ShaderModuleDescriptor {
-                        label: Some("kernel"),
-                        source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-                    })
-            })?,
+            Contraction::Allowed => shader::plain(gpu, module)?,
             Contraction::Forbidden => decorate::load(gpu, &module, &info)?,
         };
         let device = gpu.device();

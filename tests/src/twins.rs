@@ -9,7 +9,7 @@ use pullback_compiler::lower::Precision;
 use pullback_runtime::bench;
 pub use pullback_runtime::bench::canvas::{Canvas, Stage};
 pub use pullback_runtime::bench::twins::Off;
-use pullback_runtime::bench::twins::{Times, times};
+use pullback_runtime::bench::twins::{Times, times, twin_stages};
 use pullback_runtime::difference::Bitmap;
 use pullback_runtime::executor::Arithmetic;
 use pullback_runtime::{Error, Gpu, Pipeline, Size};
@@ -58,8 +58,9 @@ impl Twin {
 pub struct Measured {
     /// Seconds of a frame: ours in `accurate`, in `fast`, and the twin's.
     pub seconds: [f64; 3],
-    /// Medians of ratios of the turns: ours to the twin's, in `accurate` and in `fast`.
-    pub ratios: [f64; 2],
+    /// Medians of ratios of the turns: ours to the twin's, in `accurate` and in `fast`, and the latter to the twin without
+    /// checks of its loops.
+    pub ratios: [f64; 3],
     /// Distances from the reference: ours in `accurate`, in `fast`, the twin's.
     pub off: Option<[Off; 3]>,
     /// The reference, and the three pictures.
@@ -93,7 +94,6 @@ pub fn measure(twin: &Twin, gpu: &Gpu, plan: &Plan) -> Result<Measured, Error> {
     let settings = ours[0].scene.pack_settings(&ours[0].settings);
     let canvas = Canvas::new(gpu, &ours[0].frame(&settings, Pipeline::Compute))?;
     let scenes = ours.each_ref().map(|still| still.shader(plan.general));
-    let (module, info) = twin.module()?;
     let second = match &plan.instead {
         Some(text) => {
             let (module, info) = bench::twins::module(text)?;
@@ -101,11 +101,9 @@ pub fn measure(twin: &Twin, gpu: &Gpu, plan: &Plan) -> Result<Measured, Error> {
         }
         None => canvas.stage(&scenes[1].module, &scenes[1].info)?,
     };
-    let stages = [
-        canvas.stage(&scenes[0].module, &scenes[0].info)?,
-        second,
-        canvas.stage(&module, &info)?,
-    ];
+    let first = canvas.stage(&scenes[0].module, &scenes[0].info)?;
+    let [checked, unchecked] = twin_stages(&canvas, twin)?;
+    let stages = [first, second, checked, unchecked];
     let Times { seconds, ratios } = times(&canvas, &stages, plan.turns)?;
     let (off, pictures) = if plan.reference {
         compared(twin, gpu, plan)?

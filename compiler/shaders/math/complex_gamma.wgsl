@@ -40,6 +40,7 @@ fn complex_pi_cot_pi(z: vec2f) -> vec2f {
 fn gamma_of_right(z: vec2f) -> vec2f {
     var product = vec2f(1.0, 0.0);
     var steps = 0.0;
+    // ends: z is finite, and 6 steps to the right of -1/2 at most
     while !is_gamma_far(z + vec2f(steps, 0.0)) {
         product = complex_mul(product, z + vec2f(steps, 0.0));
         steps += 1.0;
@@ -106,6 +107,7 @@ fn complex_digamma(z: vec2f) -> vec2f {
     if left { // ψ(z) = ψ(-z) - 1/z - π cot πz
         sum = complex_inverse(z) + complex_pi_cot_pi(z);
     }
+    // ends: the real part is finite and at least -1/2 or far
     while !is_gamma_far(top) {
         sum += complex_inverse(top);
         top.x += 1.0;
@@ -133,6 +135,7 @@ fn complex_trigamma(z: vec2f) -> vec2f {
     if left { // ψ′(z) = π² / sin² πz - (ψ′(-z) - 1/z²)
         top.x += 1.0;
     }
+    // ends: the real part is finite and at least -1/2 or far
     while !is_gamma_far(top) {
         sum += complex_square(complex_inverse(top));
         top.x += 1.0;

@@ -183,6 +183,7 @@ fn real_trigamma(x: f32) -> f32 {
     // ψ′(1 + y), then ψ′(y) = ψ′(1 + y) + 1/y²
     var sum = 0.0;
     var top = y;
+    // ends: it begins at 0 or more
     while top < 2.5 {
         let r = 1.0 / top;
         sum += select(r * r, 0.0, top == y && x < 0.0);

@@ -45,6 +45,7 @@ fn zeta_factors(n: i32) -> ZetaFactors {
 fn real_zeta(n: i32, x: f32, first: f32) -> f32 {
     var sum = 0.0;
     var steps = first;
+    // ends: x is not negative; NaN is not less
     while x + steps < 8.0 {
         sum += small_power(1.0 / (x + steps), n + 1);
         steps += 1.0;
@@ -112,6 +113,7 @@ fn is_zeta_far(z: vec2f) -> bool {
 fn complex_zeta(n: i32, z: vec2f, first: f32) -> vec2f {
     var sum = vec2f(0.0, 0.0);
     var steps = first;
+    // ends: z is finite and not left of 0
     while !is_zeta_far(z + vec2f(steps, 0.0)) {
         sum += complex_small_power(complex_inverse(z + vec2f(steps, 0.0)), n + 1);
         steps += 1.0;

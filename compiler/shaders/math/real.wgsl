@@ -316,6 +316,7 @@ fn remainder_of_magnitudes(a: f32, b: f32, complement: bool) -> f32 {
     let divisor = (ub & 0x7fffffu) | 0x800000u;
     var rest = ((ua & 0x7fffffu) | 0x800000u) % divisor;
     var left = (ua >> 23u) - (ub >> 23u);
+    // ends: each turn takes up to 8 of 254 bits
     while left > 0u && rest > 0u {
         let step = min(left, 8u);
         rest = (rest << step) % divisor;

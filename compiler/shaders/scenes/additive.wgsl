@@ -164,6 +164,7 @@ fn solid_light(ray: NearRay, copy: u32, end: f32) -> vec3f {
     var around = 0.0;
     var light = vec3f();
     var more = end > ray.start;
+    // ends: a mesh has finitely many faces, and the cursor passes them all; a solid has one turn
     while more {
         var from_ = middle;
         var to = ray.start;

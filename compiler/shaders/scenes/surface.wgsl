@@ -155,6 +155,12 @@ struct Search {
 const SEARCH_TOUCHED: u32 = 6u;
 const SEARCH_EDGED: u32 = 7u;
 
+fn first_turn() -> u32 { return 0u; }
+fn is_tame() -> bool { return false; }
+fn bends_little() -> bool { return false; }
+fn is_undefined(x: f32) -> bool { return false; }
+fn turn_size(stride: vec3f) -> f32 { return 0.0; }
+fn may_hold_turn(u: f32, w: f32, size: f32) -> bool { return false; }
 fn is_searching(search: Search) -> bool { return false; }
 fn has_met(search: Search) -> bool { return false; }
 fn sample_of(k: f32, value: f32, level: f32) -> Sample { return Sample(); }
@@ -203,8 +209,9 @@ fn step_count(extent: f32, steps: u32) -> f32 {
 struct Walk {
     k: f32,       // number of the next sample
     value: f32,   // f - level at the last one; NaN where it is undefined
-    below: bool,  // whether that is negative
-    half: f32,    // f - level is between 0 and twice this at the next sample, unless something is to be searched
+    below: bool,  // whether that is negative; not used where f bends little
+    half: f32,    // f - level is between 0 and twice this at the next sample, unless something is to be searched; not used
+                  // where f bends little
 }
 
 // The first hit on a path, to about the square of `grain`, in steps. The inner loop only walks, by values alone, to where f
@@ -214,23 +221,26 @@ fn march(path: Path, grain: f32) -> Hit {
     if !(path.count > 0.0) {
         return NO_HIT;
     }
-    var walk = Walk(0.0, 0.0, false, 0.0);
+    let small = turn_size(path.stride);
+    var walk = walk_begun();
+    // ends: each turn goes at least one step on
     while walk.k <= path.count {
         var value: f32;
+        // ends: each turn goes one step on
         loop {
             value = field(path.origin + walk.k * path.stride) - settings.level;
-            // by one comparison: it takes as long as several operations, and the loop waits for it
-            if !((abs(value - walk.half) < size_of_half(walk)) & (walk.k < path.count)) {
+            if !goes_on(walk, value, path.count, small) {
                 break;
             }
             walk = walk_on(walk, value);
         }
-        var search = search_step(walk, value, path.count);
+        var search = search_step(walk, value, path.count, small);
         walk = walk_from(walk, value);
+        // ends: a search takes 12 samples and another 48 at most
         while is_searching(search) {
             let jet = field_ray(path.origin, path.stride, search.k);
             search = search_on(search, jet, settings.level, path.count, grain);
-            if search.state == SEARCH_EDGED {
+            if !is_tame() && search.state == SEARCH_EDGED {
                 search = search_before_edge(search);
             }
         }
@@ -241,7 +251,21 @@ fn march(path: Path, grain: f32) -> Hit {
     return NO_HIT;
 }
 
-// Over a sample on the same side. Let u, v, w be |f - level| at the one before, there and at the next one: v is an extremum
+// Before the first sample: as if f had come from afar, above the level. Where it is below there, the walk stops once.
+fn walk_begun() -> Walk {
+    return Walk(0.0, select(0.0, LARGEST, bends_little()), false, 0.0);
+}
+
+// Whether a walk goes on over a sample: f is on the same side there, nothing has been passed, and it is not the last one.
+fn goes_on(walk: Walk, value: f32, count: f32, small: f32) -> bool {
+    // by one comparison: it takes as long as several operations, and the loop waits for it
+    if bends_little() {
+        return (walk.value * value > small * small) & (walk.k < count);
+    }
+    return (abs(value - walk.half) < size_of_half(walk)) & (walk.k < count);
+}
+
+// Over a sample on the same side. Else let u, v, w be |f - level| at the one before, there and at the next one: v is an extremum
 // where it is more than neither of the others, and then may be beyond the level between the samples where it is not more
 // than half of their second difference u - 2 v + w. Two straight lines go beyond v by that at most, a parabola by an
 // eighth of the difference.
@@ -264,7 +288,7 @@ fn turns(walk: Walk, value: f32) -> bool {
 // Over a sample in whose step nothing has been found.
 fn walk_from(walk: Walk, value: f32) -> Walk {
     let below = value < 0.0;
-    if is_nan(value) {
+    if is_undefined(value) {
         return Walk(walk.k + 1.0, value, false, 0.0);
     }
     if is_lost(walk) || below != walk.below || walk.k == 0.0 {
@@ -284,9 +308,12 @@ fn last_of(walk: Walk) -> Sample {
 }
 
 // What is to be searched where a walk ends.
-fn search_step(walk: Walk, value: f32, count: f32) -> Search {
+fn search_step(walk: Walk, value: f32, count: f32, small: f32) -> Search {
     let near = last_of(walk);
     let far = sample_of(walk.k, value, 0.0);
+    if bends_little() {
+        return search_known_step(near, far, small);
+    }
     let is_valid = !is_nan(value);
     if walk.k == 0.0 || (is_lost(walk) && !is_valid) {
         return no_search();
@@ -304,6 +331,20 @@ fn search_step(walk: Walk, value: f32, count: f32) -> Search {
         return search_turn(near.k, max(near.k - 1.0, 0.0), far.k, 0.0);
     }
     if walk.k >= count && 3.0 * abs(value) <= abs(walk.value) {
+        return search_turn(far.k, near.k, far.k, 0.0);
+    }
+    return no_search();
+}
+
+// The same where f bends little.
+fn search_known_step(near: Sample, far: Sample, small: f32) -> Search {
+    if far.k == 0.0 {
+        return no_search();
+    }
+    if opposite(near, far) {
+        return search_root(near, far, 0.0);
+    }
+    if may_hold_turn(near.value, far.value, small) {
         return search_turn(far.k, near.k, far.k, 0.0);
     }
     return no_search();
@@ -373,7 +414,7 @@ fn look_at_base(base: vec3f, direction: vec3f, hit: Hit, on_ground: bool) -> Lig
         return light;
     }
     var p = base;
-    for (var k = view.zero; k < 4u; k++) {
+    for (var k = first_turn(); k < 4u; k++) {
         let jet = field_grad(p);
         if k == 0u {
             light.jet = jet;
@@ -492,7 +533,7 @@ fn over_box(under: vec4f, sight: Sight, span: vec2f, hidden: bool, pixel: vec2f)
     if span.y <= max(span.x, 0.0) {
         return colour;
     }
-    for (var k = view.zero; k < 2u; k++) {
+    for (var k = first_turn(); k < 2u; k++) {
         let behind = k == 0u;
         let t = select(span.x, span.y, behind);
         if t > 0.0 && !(behind && hidden) {
@@ -510,13 +551,13 @@ fn over_wall(under: vec4f, face: Face, sight: Sight, pixel: vec2f, behind: bool)
     var crossed = false;
     var p = face.p;
     // First at the face, and where the line of the level may be there, at the end of a Newton step.
-    for (var k = view.zero; k < 2u; k++) {
+    for (var k = first_turn(); k < 2u; k++) {
         let jet = field_grad(p);
         if k > 0u {
             crossed = is_zero_there(jet, trace.value);
             break;
         }
-        undefined = is_nan(jet.w);
+        undefined = is_undefined(jet.w);
         let value = clamp(jet.w - settings.level, -LARGEST, LARGEST);
         trace = trace_on(face, value, jet.xyz, sight);
         if undefined || !(trace.line > 0.0) {
@@ -581,7 +622,7 @@ fn shade(pixel: vec2f) -> vec4f {
     var base = nearest_in_box(ground_point);
     var hit = NO_HIT;
     var shadowed = false;
-    for (var leg = view.zero; leg < 2u; leg++) {
+    for (var leg = first_turn(); leg < 2u; leg++) {
         // for a shadow it is enough that there is a surface
         let found = march(path, select(1e-3, 0.5, leg > 0u));
         if leg > 0u {

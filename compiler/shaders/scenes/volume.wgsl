@@ -194,6 +194,7 @@ fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
     var whole = by_columns && is_of_one_colour();
     var seen = seen_nothing();
     var k = f32(view.zero);
+    // ends: each turn but one takes a stretch
     while (k <= stretches.count) & (seen.through > THINNEST) {
         let stretch = start + select(stretch_of(k, stretches), vec2f(0.0, stretches.extent), whole);
         var depth = -1.0;
@@ -213,6 +214,7 @@ fn seen_in_box(ray: Ray, span: vec2f, pixel: vec2f) -> Seen {
         var near = Matter();
         var far = Matter();
         var j = 0u;
+        // ends: one turn or two
         loop {
             near = far;
             let t = 0.5 * (stretch.x + stretch.y) + select(apart, -apart, j == 0u);

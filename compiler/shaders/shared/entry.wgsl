@@ -33,6 +33,7 @@ fn with_samples(before: vec4f, corner: vec2f, place: vec2f, many: u32) -> vec4f 
     var sum = before;
     // a pixel of one sample has one left: a shader that is made for one has no loop
     var left = select(many, 1u, view.samples <= 1u);
+    // ends: each turn takes one sample of those left
     loop {
         sum += shade(corner + at * step);
         left--;

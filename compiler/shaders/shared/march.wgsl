@@ -2,8 +2,9 @@
 //
 // The ray is sampled at equal steps, by values alone, and walked as long as they stay between the same two levels. Between two
 // samples the levels are those that lie between their values. Where a sample is nearer to a level than both its neighbours,
-// and so near that f may reach it in between, its extremum is looked for, too. Where f ceases to be defined within a
-// step, the step ends there. What is looked for within a step is one level after the other (search.wgsl).
+// and so near that f may reach it in between, its extremum is looked for, too; where f bends little (search.wgsl), wherever there may be one.
+// Where f ceases to be defined within a
+// step, the step ends there. What is looked for within a step is one level after the other.
 
 // The levels lowest + k spacing, 0 ≤ k < count.
 struct Family {
@@ -16,7 +17,8 @@ struct Family {
 struct Walk {
     k: f32,         // the step at whose end the next sample is taken
     value: f32,     // f at the end of what has been searched
-    older: f32,     // f a step before
+    older: f32,     // f a step before; where f bends little, the distance of `value` from the nearest level, or what is more than
+                    // any where f has just left that level
     start: f32,     // behind this, what has been searched may hold extrema that have not been seen; in steps
     floor: f32,     // f between the levels around it is from this to below `ceiling`; where f is undefined, above that
     ceiling: f32,
@@ -28,18 +30,29 @@ struct Walk {
 
 // A walk from a sample at the beginning of a way, where it is known whether f rises.
 fn walk_begun(value: f32, rising: bool, family: Family) -> Walk {
-    return walk_at(Walk(1.0, value, value, 0.0, 0.0, 0.0, rising, 0), value, family);
+    var walk = walk_at(Walk(1.0, value, value, 0.0, 0.0, 0.0, rising, 0), value, family);
+    walk.older = select(value, room_at(walk, value), bends_little());
+    return walk;
 }
 
 // Whether f is undefined at the end of what has been searched.
 fn is_lost(walk: Walk) -> bool {
-    return walk.floor > walk.ceiling;
+    return !is_tame() && walk.floor > walk.ceiling;
+}
+
+// How far a sample is from the nearest level; negative where there are levels between it and the end of what has been searched.
+fn room_at(walk: Walk, value: f32) -> f32 {
+    return min(value - walk.floor, walk.ceiling - value);
 }
 
 // Whether a walk of `count` steps goes on over the next sample, because between both is nothing to be searched, and it is not
 // the last one. Scenes walk in a loop of their own, so that rays side by side walk together to where each has something to
 // search, and then search together. Most of a ray is such steps: what they take is a few comparisons.
-fn walks_over(walk: Walk, value: f32, count: f32) -> bool {
+fn walks_over(walk: Walk, value: f32, count: f32, small: f32) -> bool {
+    if bends_little() {
+        // by one comparison: a product of distances that is negative, or no more than that of small ones
+        return (walk.older * room_at(walk, value) > small * small) & (walk.k < count);
+    }
     if !((value >= walk.floor) & (value < walk.ceiling)) {
         return is_lost(walk) & is_nan(value) & (walk.k < count);
     }
@@ -67,7 +80,7 @@ fn level_beside(walk: Walk, upper: bool) -> f32 {
 // A walk over the next sample.
 fn walk_on(before: Walk, value: f32) -> Walk {
     var walk = before;
-    walk.older = walk.value;
+    walk.older = select(walk.value, room_at(walk, value), bends_little());
     walk.rising = value > walk.value;
     walk.value = value;
     walk.k += 1.0;
@@ -78,7 +91,9 @@ fn walk_on(before: Walk, value: f32) -> Walk {
 fn walk_from(before: Walk, value: f32, family: Family) -> Walk {
     var walk = walk_on(before, value);
     walk.older = select(walk.older, value, is_lost(before));
-    return walk_at(walk, value, family);
+    walk = walk_at(walk, value, family);
+    walk.older = select(walk.older, room_at(walk, value), bends_little());
+    return walk;
 }
 
 // A walk that goes on from a level that has been met, above f before or below.
@@ -86,7 +101,7 @@ fn walk_behind(before: Walk, met: Search, upper: bool, family: Family) -> Walk {
     let touching = met.state == SEARCH_TOUCHED;
     var walk = before;
     walk.value = level_beside(before, upper);
-    walk.older = walk.value;
+    walk.older = select(walk.value, 1e30, bends_little());
     walk.rising = upper != touching;
     walk.start = met.k;
     walk.k = floor(met.k) + 1.0;
@@ -95,7 +110,7 @@ fn walk_behind(before: Walk, met: Search, upper: bool, family: Family) -> Walk {
 
 // A walk whose value has been replaced.
 fn walk_at(before: Walk, value: f32, family: Family) -> Walk {
-    if is_nan(value) {
+    if is_undefined(value) {
         var walk = before;
         // no value is between these
         walk.floor = 1.0;
@@ -136,9 +151,19 @@ fn grain_of(family: Family) -> f32 {
     return 4e-3 * family.spacing;
 }
 
-// An extremum at the end of what has been searched, or, at the last sample, there.
-fn aim_at_turn(walk: Walk, value: f32, count: f32, family: Family) -> Aim {
+// An extremum at the end of what has been searched, or, at the last sample, there; where f bends little, one in between.
+fn aim_at_turn(walk: Walk, value: f32, count: f32, family: Family, small: f32) -> Aim {
     let grain = grain_of(family);
+    if bends_little() {
+        let upper = walk.ceiling - value < value - walk.floor;
+        let near = abs(walk.value - level_beside(walk, upper));
+        let room = room_at(walk, value);
+        // where f has just come from a level within the step it does not turn to it
+        if room < 0.0 || !may_hold_turn(near, room, small) || walk.start > walk.k - 1.0 {
+            return Aim(no_search(), false);
+        }
+        return Aim(search_turn(walk.k, walk.k - 1.0, walk.k, grain), upper);
+    }
     if is_lost(walk) || is_nan(value) {
         return Aim(no_search(), false);
     }
@@ -156,7 +181,7 @@ fn aim_at_turn(walk: Walk, value: f32, count: f32, family: Family) -> Aim {
 fn aim_in_step(walk: Walk, value: f32, family: Family) -> Aim {
     let near = sample_of(end_of(walk), walk.value, 0.0);
     let far = sample_of(walk.k, value, 0.0);
-    if is_lost(walk) != is_nan(value) {
+    if !is_tame() && is_lost(walk) != is_nan(value) {
         if is_nan(value) {
             return Aim(search_edge(near, far.k), false);
         }
@@ -184,7 +209,7 @@ fn goal_of(aim: Aim, walk: Walk) -> f32 {
 // Whether a search within a step has ended where its rest is to be searched: at the edge of where f is defined, or at a pole
 // or a jump.
 fn has_rest(search: Search) -> bool {
-    return search.state == SEARCH_EDGED || search.state == SEARCH_BROKEN;
+    return !is_tame() && (search.state == SEARCH_EDGED || search.state == SEARCH_BROKEN);
 }
 
 // A walk up to where such a search has ended, if the rest lies behind that.

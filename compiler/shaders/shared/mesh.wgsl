@@ -84,6 +84,7 @@ fn triangle_hit(triangle: u32, shear: Shear) -> MeshHit {
 fn mesh_next(origin: vec3f, direction: vec3f, shear: Shear, start: f32, from_: MeshCursor) -> MeshHit {
     var cursor = from_;
     let nodes = mesh[0].x;
+    // ends: a node comes after those before it, and the last one's follower is their number
     while cursor.node < nodes {
         let least = mesh[1u + 2u * cursor.node];
         let most = mesh[2u + 2u * cursor.node];
@@ -95,6 +96,7 @@ fn mesh_next(origin: vec3f, direction: vec3f, shear: Shear, start: f32, from_: M
             continue;
         }
         let count = most.w & 15u;
+        // ends: each turn takes one triangle of 15
         while cursor.triangle < count {
             let hit = triangle_hit((most.w >> 4u) + cursor.triangle, shear);
             cursor.triangle++;

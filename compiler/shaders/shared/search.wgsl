@@ -6,6 +6,51 @@
 // copy a function to where it is called, and f may be long; and what a search carries along is little, because every number
 // of it takes a register from each ray of a GPU, walking or not.
 
+// ---- What is known of f ---------------------------------------------------------------------------------------
+
+// At least |f| and at least the norm of the matrix of second derivatives, everywhere in the scene's box; negative
+// where nothing is known, the second one also where it would help no search. Shaders that are made for their settings are told
+// (compiler/src/module/bounds.rs).
+fn field_bounds() -> vec2f {
+    return vec2f(-1.0);
+}
+
+// Whether f is known to be smooth in the box: then it is defined everywhere, and has no poles and no jumps.
+fn is_tame() -> bool {
+    return field_bounds().x >= 0.0;
+}
+
+// Whether x, a value of f in the box, says that f is undefined there.
+fn is_undefined(x: f32) -> bool {
+    return !is_tame() && is_nan(x);
+}
+
+// Whether f is tame and known to bend so little that values of samples tell of all extrema between them that reach a level.
+fn bends_little() -> bool {
+    return field_bounds().y >= 0.0;
+}
+
+// Where a loop of few turns begins that has the one place of something in it: at 0. Drivers copy functions to where they are
+// called and loops once for each turn, and f may be long; so they must not know, unless f is short.
+fn first_turn() -> u32 {
+    return view.zero;
+}
+
+// A step between samples u and w of |f - level| has an extremum that reaches the level only if √u + √w is at most √(M/2), where
+// f bends by no more than M in a step: at a distance s from it u is at most M s²/2, and w at most M (1 - s)²/2. Then the root
+// of u w is at most M/8. This is that number, if f bends little; some is added for roundings.
+fn turn_size(stride: vec3f) -> f32 {
+    let bounds = field_bounds();
+    return 0.1265 * bounds.y * dot(stride, stride) + 4e-6 * bounds.x;
+}
+
+// Whether a step may hold such an extremum.
+fn may_hold_turn(u: f32, w: f32, size: f32) -> bool {
+    return sqrt(abs(u)) + sqrt(abs(w)) <= 2.0 * sqrt(size);
+}
+
+// ---- Searches ------------------------------------------------------------------------------------------------
+
 // f - level on the ray.
 struct Sample {
     k: f32,
@@ -57,7 +102,7 @@ fn sample_of(k: f32, value: f32, level: f32) -> Sample {
 // `jet` is f and its slope.
 fn sample_with_slope(k: f32, jet: vec2f, level: f32) -> Sample {
     var sample = sample_of(k, jet.x, level);
-    sample.slope = select(clamp(jet.y, -SEARCH_LARGEST, SEARCH_LARGEST), 0.0, is_nan(jet.y));
+    sample.slope = select(clamp(jet.y, -SEARCH_LARGEST, SEARCH_LARGEST), 0.0, is_undefined(jet.y));
     return sample;
 }
 
@@ -79,10 +124,10 @@ fn search_ended(before: Search, state: u32) -> Search {
 // part `grain` of the bracket that the search began with.
 fn search_on(search: Search, jet: vec2f, level: f32, count: f32, grain: f32) -> Search {
     let found = sample_with_slope(search.k, jet, level);
-    if search.state == SEARCH_EDGE {
+    if !is_tame() && search.state == SEARCH_EDGE {
         return searched_edge(search, found, !is_nan(jet.x));
     }
-    if is_nan(jet.x) {
+    if is_undefined(jet.x) {
         return search_ended(search, SEARCH_NOTHING);
     }
     switch search.state {

@@ -50,7 +50,7 @@ fn shell_layer(level: i32, touching: bool, gradient: vec3f, direction: vec3f, sh
 // A wall of the box: on the far one a tint by value, on both a line for each level. `rate` is the change of value per
 // pixel, negative where it is not known.
 fn shell_wall(value: f32, rate: f32, behind: bool, width: f32, shells: Shells, pixel: vec2f) -> Layer {
-    if is_nan(value) {
+    if is_undefined(value) {
         return Layer(vec3f(0.45), select(0.12, 0.30, behind) * hatch(pixel, 1.0, 7.0, 0.3, sample_window()));
     }
     let family = shells.family;
@@ -89,24 +89,28 @@ fn seen_shells(before: Seen, sight: Sight, part: vec2f, half_size: vec3f, steps:
     let extent = part.y - part.x;
     let count = f32(max(u32(ceil(extent / (2.0 * length(half_size)) * f32(steps))), 1u));
     let stride = extent / count * d;
+    let small = turn_size(stride);
     var walk: Walk;
     var seen = before;
     // One place evaluates the gradient: first at the bound in front, then where a level is met, at last at the bound behind.
     for (var k = view.zero; k < MOST_LAYERS && seen.through > THINNEST_SHELL; k++) {
         var aim: Aim;
         var met = false;
+        // ends: each turn goes at least one step on, or behind an edge or a pole within one
         while k > 0u && walk.k <= count && !met {
             var value: f32;
+            // ends: each turn goes one step on
             loop {
                 value = field(origin + walk.k * stride);
-                if !walks_over(walk, value, count) {
+                if !walks_over(walk, value, count, small) {
                     break;
                 }
                 walk = walk_on(walk, value);
             }
             // first for an extremum at the end of what has been searched, then in the step up to the sample
             var turning = true;
-            aim = aim_at_turn(walk, value, count, shells.family);
+            aim = aim_at_turn(walk, value, count, shells.family, small);
+            // ends: a search takes 48 samples at most, and each of those that follow begins nearer to the end of the step
             while turning || is_searching(aim.search) {
                 if is_searching(aim.search) {
                     let goal = goal_of(aim, walk);

@@ -198,6 +198,7 @@ fn long_powi(z: Complex, count: u32) -> LongPower {
     var power = base;
     var bit = 31u - countLeadingZeros(count);
     var squared = false;
+    // ends: every second turn takes one of 32 bits
     while bit > 0u {
         var factor = power;
         if squared {

@@ -1,5 +1,6 @@
 //! Finished shader modules: a scene with a formula in it, and the evaluation of rows of numbers.
 
+mod bounds;
 mod column;
 mod demand;
 mod evaluation;

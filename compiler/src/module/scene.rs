@@ -3,6 +3,7 @@
 use naga::valid::ModuleInfo;
 use naga::{Module, ScalarKind, StructMember, TypeInner};
 
+use super::bounds::{Field, tell};
 use super::column::Column;
 use super::demand::Demand;
 use super::{ModuleError, validate};
@@ -26,6 +27,8 @@ pub struct SceneModule {
     pub settings_size: usize,
     /// What the formula's numbers are computed with.
     pub tier: Tier,
+    /// The formula of a scene that looks for its levels along rays.
+    field: Option<Field>,
     /// The bytes of the settings and the samples per axis that it is made for, if it is made for some.
     fixed: Option<(Vec<u8>, u32)>,
     /// The words of the storage `mesh`, of a scene that has one: the host's to fill in. See `shaders/shared/mesh.wgsl`.
@@ -62,6 +65,7 @@ impl SceneModule {
             layout,
             settings_size,
             tier,
+            field: Field::of(picture),
             fixed: None,
             mesh: Vec::new(),
         })
@@ -84,6 +88,9 @@ impl SceneModule {
             .map(|word| word.try_into().ok().map(u32::from_le_bytes))
             .collect();
         let mut module = self.module.clone();
+        if let Some(field) = &self.field {
+            tell(&mut module, field, settings);
+        }
         let mut view = [None; 12];
         view[SAMPLES] = Some(samples);
         specialise(&mut module, &[("settings", &words), ("view", &view)]);

@@ -97,12 +97,25 @@ impl Canvas {
         self.clock.is_some()
     }
 
-    /// Makes the pipeline of a module.
+    /// Makes the pipeline of a module of ours, loaded as a scene's is.
     ///
     /// # Errors
     /// The device's.
     pub fn stage(&self, module: &Module, info: &ModuleInfo) -> Result<Stage, Error> {
         let shader = shader::load(&self.gpu, module, info, Tier::default())?;
+        self.stage_of(&shader, module)
+    }
+
+    /// Makes the pipeline of a module that someone has written, loaded as wgpu loads such, with every check.
+    ///
+    /// # Errors
+    /// The device's.
+    pub fn stage_checked(&self, module: &Module) -> Result<Stage, Error> {
+        let shader = shader::checked(&self.gpu, module.clone())?;
+        self.stage_of(&shader, module)
+    }
+
+    fn stage_of(&self, shader: &wgpu::ShaderModule, module: &Module) -> Result<Stage, Error> {
         // a module that does not use a buffer has no place for it
         let used: Vec<u32> = module
             .global_variables
@@ -146,7 +159,7 @@ impl Canvas {
             let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: None,
                 layout: Some(&pipeline_layout),
-                module: &shader,
+                module: shader,
                 entry_point: Some(ENTRY),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 cache: None,

@@ -166,22 +166,35 @@ impl Off {
 pub struct Times {
     /// Seconds of ours in `accurate`, in `fast`, and of the twin's.
     pub seconds: [f64; 3],
-    /// Medians of ratios of the turns: ours to the twin's, in `accurate` and in `fast`.
-    pub ratios: [f64; 2],
+    /// Medians of ratios of the turns: ours to the twin's, in `accurate` and in `fast`, and the latter to the twin without
+    /// checks of its loops.
+    pub ratios: [f64; 3],
 }
 
-/// Draws ours in `accurate` and in `fast`, and the twin's, in turns.
+/// The twin as wgpu loads a text, and loaded as ours are, without checks of its loops.
+///
+/// # Errors
+/// The device's, or it is no valid WGSL.
+pub fn twin_stages(canvas: &Canvas, twin: &Twin) -> Result<[Stage; 2], Error> {
+    let (module, info) = twin.module()?;
+    Ok([
+        canvas.stage_checked(&module)?,
+        canvas.stage(&module, &info)?,
+    ])
+}
+
+/// Draws ours in `accurate` and in `fast`, and the twin's, with and without checks of its loops, in turns.
 ///
 /// # Errors
 /// The device's.
-pub fn times(canvas: &Canvas, stages: &[Stage; 3], turns: u32) -> Result<Times, Error> {
+pub fn times(canvas: &Canvas, stages: &[Stage; 4], turns: u32) -> Result<Times, Error> {
     let turns = canvas.turns(stages, turns)?;
-    let of = |number: &dyn Fn(&[f64; 3]) -> f64| {
+    let of = |number: &dyn Fn(&[f64; 4]) -> f64| {
         let all: Vec<f64> = turns.iter().map(number).collect();
         median(&all)
     };
     Ok(Times {
         seconds: [0, 1, 2].map(|k| of(&|turn| turn[k])),
-        ratios: [0, 1].map(|k| of(&|turn| turn[k] / turn[2])),
+        ratios: [[0, 2], [1, 2], [1, 3]].map(|[k, other]| of(&|turn| turn[k] / turn[other])),
     })
 }

@@ -91,8 +91,8 @@ fn run(options: &Options) -> Result<(), Error> {
         options.size.width, options.size.height, options.turns
     );
     println!(
-        "| scene | formula | twin, ms | fast / twin | accurate / twin | error: accurate | fast | twin |\n\
-         | --- | --- | ---: | ---: | ---: | --- | --- | --- |"
+        "| scene | formula | twin, ms | fast / twin | accurate / twin | fast / unchecked | error: accurate | fast | twin |\n\
+         | --- | --- | ---: | ---: | ---: | ---: | --- | --- | --- |"
     );
     let plan = Plan {
         size: options.size,
@@ -164,12 +164,12 @@ fn count_row(scene: &str, ratio: f64, name: &str, count: &Count) -> String {
 }
 
 fn row(scene: &str, formula: &str, measured: &Measured) -> String {
-    let [accurate, fast] = measured.ratios;
+    let [accurate, fast, unchecked] = measured.ratios;
     let off = measured.off.map_or(["", "", ""].map(str::to_owned), |off| {
         off.map(|off| off.to_string())
     });
     format!(
-        "| {scene} | {formula} | {:.3} | {fast:.2} | {accurate:.2} | {} |",
+        "| {scene} | {formula} | {:.3} | {fast:.2} | {accurate:.2} | {unchecked:.2} | {} |",
         measured.seconds[2] * 1e3,
         off.join(" | ")
     )

@@ -9,7 +9,7 @@ use pullback_runtime::bench::canvas::Canvas;
 use pullback_runtime::bench::gradients::{self, formulas::Gradient};
 use pullback_runtime::bench::growth::grown;
 use pullback_runtime::bench::marches::{self, FRAME, Rival, densities::Density};
-use pullback_runtime::bench::twins::{Off, Twin, times};
+use pullback_runtime::bench::twins::{Off, Twin, times, twin_stages};
 use pullback_runtime::bench::{STAGES, median, operations};
 use pullback_runtime::difference::Bitmap;
 use pullback_runtime::executor::{Arithmetic, Painter};
@@ -171,8 +171,8 @@ pub(super) fn twins_head(adapter: &str, size: Size) -> String {
     format!(
         "{adapter}; {}x{} pixels of one sample. Errors are those of pictures of {}x{} pixels against f64: mean of FLIP, root of the \
          mean square of a channel of 255, share of pixels that are off by more than 8 of 255\n\n\
-         | scene | formula | twin, ms | fast / twin | accurate / twin | error: accurate | fast | twin |\n\
-         | --- | --- | ---: | ---: | ---: | --- | --- | --- |\n",
+         | scene | formula | twin, ms | fast / twin | accurate / twin | fast / unchecked | error: accurate | fast | twin |\n\
+         | --- | --- | ---: | ---: | ---: | ---: | --- | --- | --- |\n",
         size.width, size.height, small.width, small.height
     )
 }
@@ -200,9 +200,9 @@ pub(super) fn twins_line(
     let found = times(&canvas, &stages, turns as u32)?;
     let small = Pair::new(twin, small(size), console)?;
     let off = small.off(twin, gpu)?.map(|off| off.to_string());
-    let [accurate, fast] = found.ratios;
+    let [accurate, fast, unchecked] = found.ratios;
     Ok(format!(
-        "| {} | {} | {:.3} | {fast:.2} | {accurate:.2} | {} |\n",
+        "| {} | {} | {:.3} | {fast:.2} | {accurate:.2} | {unchecked:.2} | {} |\n",
         twin.scene,
         twin.formula,
         1e3 * found.seconds[2],
@@ -237,7 +237,7 @@ impl Pair {
         &self,
         twin: &Twin,
         gpu: &Gpu,
-    ) -> Result<(Canvas, [pullback_runtime::bench::canvas::Stage; 3]), Failure> {
+    ) -> Result<(Canvas, [pullback_runtime::bench::canvas::Stage; 4]), Failure> {
         let settings = self.scenes[0].pack_settings(&self.subject.settings);
         let canvas = Canvas::new(gpu, &self.subject.single(&settings))?;
         let stage = |scene: &SceneModule| {
@@ -249,9 +249,8 @@ impl Pair {
             canvas.stage(&made.module, &made.info)
         };
         let [accurate, fast] = [stage(&self.scenes[0])?, stage(&self.scenes[1])?];
-        let (module, info) = twin.module()?;
-        let theirs = canvas.stage(&module, &info)?;
-        Ok((canvas, [accurate, fast, theirs]))
+        let [checked, unchecked] = twin_stages(&canvas, twin)?;
+        Ok((canvas, [accurate, fast, checked, unchecked]))
     }
 
     /// How far the three pictures are from f64.
