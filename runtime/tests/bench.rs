@@ -186,3 +186,61 @@ fn tables_beside_other_ways_have_a_line_a_run() {
         assert!(!lines(&table, first).is_empty(), "{name}: {table}");
     }
 }
+
+/// A counter of instructions that is found before the machine's: it counts a million for each byte of the program that is compiled,
+/// so that the counts of two programs are known.
+#[cfg(unix)]
+const COUNTER: &str = r#"#!/bin/sh
+while [ "$1" != "--" ]; do shift; done
+shift
+"$@" || exit 1
+echo "$(($(wc -c < "$3") * 1000000)),,instructions:u,1,100.00,," >&2
+"#;
+
+#[cfg(unix)]
+#[test]
+fn a_program_that_takes_more_instructions_is_found() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder();
+    let perf = folder.path().join("perf");
+    std::fs::write(&perf, COUNTER).unwrap();
+    std::fs::set_permissions(&perf, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let path = std::env::var("PATH").unwrap_or_default();
+    let path = format!("{}:{path}", folder.path().display());
+    let bench = |more: &[&str]| {
+        let all = [&COMPILER[..], &["--instructions"], more, &["-q", "a.pull"]].concat();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_pullback"))
+            .args(all)
+            .env("PATH", &path)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        (output.status.code().unwrap(), text)
+    };
+    let (code, table) = bench(&["-o", "base.json"]);
+    assert_eq!(code, 0, "{table}");
+    // what the process takes by itself is that of `show levels(x)`
+    let count = |text: &str| (text.len() - "show levels(x)\n".len()) as f64;
+    let before = "show levels(sin(x) cos(y))\n";
+    let told = format!("a      {:>9.3}", count(before));
+    assert!(table.contains(&told), "{told}: {table}");
+    let changed = |table: &str| {
+        let line = table.lines().find(|line| line.contains("a instructions"));
+        line.map(str::to_owned)
+    };
+    let (_, table) = bench(&["--compare", "base.json"]);
+    assert_eq!(changed(&table), None, "{table}");
+    let against = |text: &str, word: &str, expected: i32| {
+        std::fs::write(folder.path().join("a.pull"), text).unwrap();
+        let (code, table) = bench(&["--compare", "base.json", "--fail-above", "400"]);
+        let line = changed(&table).unwrap_or_else(|| panic!("{table}"));
+        let ratio = format!("{:.3}", count(text) / count(before));
+        assert!(line.contains(&ratio) && line.ends_with(word), "{line}");
+        assert_eq!(code, expected, "{table}");
+    };
+    // six times as many: more than the limit, which no other work on the machine makes of the times
+    let terms = " + x y".repeat(11);
+    against(&format!("show levels(sin(x) cos(y){terms})\n"), "slower", 1);
+    against("show levels(sin(x))\n", "faster", 0);
+}

@@ -7,8 +7,8 @@
 //! reports every operation that makes such a quantity. Ratios of values, as root finders take them, are none; nor is
 //! a value divided by a slope, which is a distance.
 //!
-//! What it does not see: a difference taken inside of a library function (those get no stub), and one hidden behind
-//! a transcendental function, whose argument is a number.
+//! What it does not see: a difference taken inside of a library function (those get no stub), one hidden behind
+//! a transcendental function, whose argument is a number, and one of members of a jet that was put together of two.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -218,7 +218,8 @@ impl Analysis<'_> {
                     self.places
                         .insert(Place::Member(name.clone(), k), Units::from([LENGTH]));
                 }
-                if name == "Jet" || name == "Jet2" {
+                let is_number = ["exponent", "branches"].contains(&member);
+                if (name == "Jet" || name == "Jet2") && !is_number {
                     let unit = if k == 0 {
                         Unit::of_value(0)
                     } else {
@@ -235,6 +236,10 @@ impl Analysis<'_> {
                     .insert(Place::Argument(handle, 0), Units::from([LENGTH]));
             }
         }
+    }
+
+    fn is_jet(place: &Place) -> bool {
+        matches!(place, Place::Member(name, _) if name == "Jet" || name == "Jet2")
     }
 
     fn read(&self, place: &Place) -> Units {
@@ -282,6 +287,8 @@ impl Analysis<'_> {
             Expression::Access { base, .. } => of(base),
             Expression::AccessIndex { base, index } => {
                 match self.member(handle, base, index as usize) {
+                    // a jet is of one point
+                    Some(place) if Self::is_jet(&place) => of_one(self.read(&place), base),
                     Some(place) => self.read(&place),
                     None => component(
                         &of(base),
@@ -534,6 +541,13 @@ impl Analysis<'_> {
 }
 
 /// The difference of two evaluations is marked; that of one with itself, or with a number, is not.
+/// Units of a member of a structure that is one evaluation.
+fn of_one(units: Units, base: Handle<Expression>) -> Units {
+    let origin = base.index() + 1;
+    let known = units.into_iter();
+    known.map(|unit| Unit { origin, ..unit }).collect()
+}
+
 fn difference(left: &Units, right: &Units) -> Units {
     let is_evaluation = |u: &&Unit| u.value > 0;
     let mut out = left | right;

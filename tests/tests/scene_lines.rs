@@ -294,6 +294,52 @@ fn zero_curves_have_their_place_and_width() {
     );
 }
 
+/// Distance of a point from the half strip |x - t y| ≤ 1, y ≤ 0, that is from its three edges, and from its corners.
+fn from_half_strip([x, y]: [f64; 2], t: f64) -> [f64; 2] {
+    let from = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| {
+        let (dx, dy) = (bx - ax, by - ay);
+        let along = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy);
+        let along = along.clamp(0.0, 1.0);
+        (x - ax - along * dx).hypot(y - ay - along * dy)
+    };
+    let corners = [[-1.0, 0.0], [1.0, 0.0]];
+    let sides = corners.map(|corner| from(corner, [corner[0] - 9.0 * t, -9.0]));
+    let edge = from(corners[0], corners[1]).min(sides[0]).min(sides[1]);
+    let corner = corners.map(|[cx, cy]| (x - cx).hypot(y - cy));
+    [edge, corner[0].min(corner[1])]
+}
+
+/// Above the end of the strip the branches of its sides are less than that of its end, but for a sliver where they hold and are
+/// 16 times as steep: their zeros beside it are none of the function. Inside of the strip it is the end's branch that holds there,
+/// which knows nothing of a side that is nearer: only the outer half of a line is asked for.
+#[test]
+fn corners_of_branches_have_no_spikes() {
+    let Some(gpu) = suite() else { return };
+    for (formula, t) in [
+        ("max(8 (|x| - 1), y/2)", 0.0),
+        ("max(max(8 (x - 0.4 y - 1), -8 (x - 0.4 y + 1)), y/2)", 0.4),
+        ("-min(min(8 - 8 x - 6 y, 8 + 8 x + 6 y), -y/2)", -0.75),
+    ] {
+        let source = format!("show implicit({formula}) {{ fill = 0, ink = 0, line_width = 3 }}");
+        let camera = camera([0.3, 0.2], 4.0);
+        let picture = Picture::draw(&gpu, &source, camera);
+        let paper = picture.linear(160, 5)[0];
+        for (column, row) in (0..240).flat_map(|row| (0..320).map(move |column| (column, row))) {
+            let point = camera.world(f64::from(column) + 0.5, f64::from(row) + 0.5);
+            let [edge, corner] = from_half_strip(point, t).map(|d| d / camera.pixel());
+            let covered = 1.0 - picture.linear(column, row)[0] / paper;
+            let [x, y] = point;
+            let is_outside = (x - t * y).abs() > 1.0 || y > 0.0;
+            let is_line = is_outside && (0.6..0.9).contains(&edge) && corner > 5.0;
+            let wrong = (edge > 3.0 && covered > 0.02) || (is_line && covered < 0.85);
+            assert!(
+                !wrong,
+                "{formula}: {covered} at {column}, {row}, {edge} pixels away"
+            );
+        }
+    }
+}
+
 // ------------------------------------------------------------------------------------------------------------------
 // levels
 

@@ -8,9 +8,11 @@ use pullback_compiler::{EmitWhat, Program, Target, What, compile};
 use pullback_runtime::evaluate::Surroundings;
 use pullback_runtime::{
     AdapterChoice, Capabilities, Frame, Gpu, GpuEvaluator, Pipeline, Renderer, Size, View,
+    executor::Arithmetic,
 };
 use pullback_tests::corpus::gallery;
 use pullback_tests::deep_zoom::{FIELDS, last_true_width};
+use pullback_tests::stills::{Machine, Still};
 
 fn software() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
@@ -136,6 +138,51 @@ fn fast_takes_no_rests() {
     };
     assert!(emitted(Precision::Accurate).contains("_rest("));
     assert!(!emitted(Precision::Fast).contains("_rest("));
+}
+
+/// Red, green, blue and alpha of all pixels, linear.
+fn light(source: &str, precision: Precision, machine: &Machine) -> Vec<f32> {
+    let size = Size {
+        width: 32,
+        height: 24,
+    };
+    let still = Still::in_precision(source, size, 1, precision);
+    let rows = still.draw(machine, Pipeline::Linear).expect("a picture");
+    let numbers = rows.as_chunks::<4>().0.iter();
+    numbers.map(|bytes| f32::from_le_bytes(*bytes)).collect()
+}
+
+/// Scenes are in float32, but of doubles beyond its range they take a power of two apart: of large values, of tiny ones, and of
+/// derivatives that are beyond it where the value is not.
+#[test]
+fn double_draws_what_single_precision_cannot_hold() {
+    let gpu = Machine::Adapter(software().clone());
+    let apart = |a: &[f32], b: &[f32]| {
+        let all = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+        all.fold(0.0, f32::max)
+    };
+    let domain = |f: &str, modulus: &str| {
+        let look = "height = 6, fade_octaves = 200, phase_lines = 8";
+        format!("f(z) = {f}\nshow domain(f) {{ modulus = {modulus}, {look} }}")
+    };
+    // the reference takes numbers below 2^-126 for zeros, and so gets all values times 2^100
+    let tiny = ["z^60", "exp(25 z)", "conj(z)^2 exp(25 z)"].map(|f| {
+        let truth = domain(&format!("2^100 ({f})"), "1267650600228229401496703205376");
+        (domain(f, "1"), truth)
+    });
+    let large = [
+        "f(z) = z^100 - z\nshow sphere(f) { pitch = -80, fade_octaves = 300 }",
+        "f(z) = exp(20 (z + 4.2))\nshow grid(f) { height = 6, shape = polar, fade_octaves = 200 }",
+    ];
+    let large = large.map(|source| (source.to_owned(), source.to_owned()));
+    for (source, truth) in tiny.into_iter().chain(large) {
+        let reference = Machine::Processor(Arithmetic::Reference);
+        let truth = light(&truth, Precision::Accurate, &reference);
+        let double = apart(&truth, &light(&source, Precision::Double, &gpu));
+        assert!(double < 1.0 / 255.0, "{source}: {double}");
+        let single = apart(&truth, &light(&source, Precision::Accurate, &gpu));
+        assert!(single > 10.0 / 255.0, "{source}: {single} in accurate");
+    }
 }
 
 /// Decorated shaders go past wgpu, so both stages and all bindings are tried.

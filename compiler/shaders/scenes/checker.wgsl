@@ -46,6 +46,7 @@ struct Jet {
     value: vec2f,
     dz: vec2f,
     dzbar: vec2f,
+    exponent: f32,
 }
 
 struct Polar {

@@ -53,6 +53,7 @@ struct Jet {
     value: vec2f,
     dz: vec2f,
     dzbar: vec2f,
+    exponent: f32,
 }
 
 // f with ∂f/∂z and ∂f/∂z̄ at the offset from the view's centre

@@ -11,6 +11,10 @@
 // under which there is a zero near and only one (L. Kantorovich 1948), both signs inside of the sample by the quadratic
 // model, or a whole odd m.
 //
+// The model of a function that is made of branches (max, min, |x|, conditions) is that of one of them, whose zero may lie where
+// another holds, as beyond a sharp corner. Such a function is asked again at the zero of the model, if that is near enough to be
+// seen: where it still has its sign there, the curve is as much farther as value and slope there tell, and so on.
+//
 // An undefined value (NaN) is a quiet grey hatch, an infinity the colour of its side with a hatch of the other slope.
 // A constant is the colour of its side; where f and all its derivatives are 0 nothing is known about the curve.
 
@@ -46,14 +50,16 @@ struct Jet2 {
     dxx: f32,
     dxy: f32,
     dyy: f32,
+    branches: bool,
 }
 
-// f with its first and second derivatives at the offset from the view's centre
+// f with its first and second derivatives at the offset from the view's centre, and whether these may jump
 fn field_jet2(offset: vec2f) -> Jet2 { return Jet2(); }
 
 fn is_nan(x: f32) -> bool { return false; }
 fn is_finite(x: f32) -> bool { return false; }
 fn magnify_tiny(x: f32) -> f32 { return 0.0; }
+fn length2_safe(v: vec2f) -> f32 { return 0.0; }
 fn offset_from_pixel(pixel: vec2f) -> vec2f { return vec2f(); }
 fn sample_window() -> f32 { return 0.0; }
 fn undefined_colour(pixel: vec2f) -> vec3f { return vec3f(); }
@@ -84,9 +90,13 @@ struct Verdict {
     distance: f32,  // pixels
     touches: bool,  // f has one sign on both sides of it
     settled: bool,
+    ahead: bool,    // it is where the gradient points, or the other way
 }
 
 const FAR: f32 = 1e9;
+
+// How often a function of branches is asked on the way to a zero, at most.
+const LOOKS: u32 = 6u;
 
 // A root of multiplicity m is told from others where 1/(1 - h) is so near to a whole number, relatively.
 const WHOLE: f32 = 0.2;
@@ -100,15 +110,16 @@ fn scaled_by(jet: Jet2, factor: f32) -> Jet2 {
         jet.dxx * factor,
         jet.dxy * factor,
         jet.dyy * factor,
+        jet.branches,
     );
 }
 
 // The derivatives per pixel, all as small as the largest allows.
 fn per_pixel(jet: Jet2) -> Jet2 {
     let h = view.pixel;
-    var out = Jet2(jet.value, jet.dx * h, jet.dy * h, jet.dxx * h * h, jet.dxy * h * h, jet.dyy * h * h);
+    var out = Jet2(jet.value, jet.dx * h, jet.dy * h, jet.dxx * h * h, jet.dxy * h * h, jet.dyy * h * h, false);
     if !is_finite(abs(out.dxx) + abs(out.dxy) + abs(out.dyy)) {
-        out = Jet2(out.value, out.dx, out.dy, 0.0, 0.0, 0.0);
+        out = Jet2(out.value, out.dx, out.dy, 0.0, 0.0, 0.0, false);
     }
     var size = max(abs(out.value), max(abs(out.dx), abs(out.dy)));
     size = max(size, max(abs(out.dxx), max(abs(out.dxy), abs(out.dyy))));
@@ -120,6 +131,7 @@ fn per_pixel(jet: Jet2) -> Jet2 {
             magnify_tiny(out.dxx),
             magnify_tiny(out.dxy),
             magnify_tiny(out.dyy),
+            false,
         );
         size = magnify_tiny(size);
     }
@@ -173,12 +185,12 @@ fn distance_along(m: Model, newton: f32, h: f32, multiple: f32) -> f32 {
 fn critical(m: Model, reach: f32) -> Verdict {
     let bend = m.bend.least;
     if bend < 0.0 {
-        return Verdict(sqrt(2.0 * m.value / -bend), false, true);
+        return Verdict(sqrt(2.0 * m.value / -bend), false, true, false);
     }
     if m.value == 0.0 {
-        return Verdict(0.0, bend > 0.0, m.bend.norm > 0.0);
+        return Verdict(0.0, bend > 0.0, m.bend.norm > 0.0, false);
     }
-    return Verdict(FAR, false, m.value > 0.5 * reach * reach * m.bend.norm);
+    return Verdict(FAR, false, m.value > 0.5 * reach * reach * m.bend.norm, false);
 }
 
 fn verdict_of(m: Model) -> Verdict {
@@ -197,22 +209,23 @@ fn verdict_of(m: Model) -> Verdict {
     let is_whole = h > 0.4 && order >= 2.0 && order <= MOST_MULTIPLE && abs(multiple - order) <= WHOLE * order;
     let touches = is_whole && distance < FAR && (u32(order) & 1u) == 0u && h > 0.44 && m.bend.least > -0.2 * m.bend.norm;
     if none_near {
-        return Verdict(distance, touches, true);
+        return Verdict(distance, touches, true, true);
     }
     if !m.known || (!is_whole && is_crowded(m, h, 1.0)) {
-        return Verdict(distance, false, false);
+        return Verdict(distance, false, false, true);
     }
     if simple && !touches {
-        return Verdict(distance, false, true);
+        return Verdict(distance, false, true, true);
     }
     let both_signs = m.bend.least < 0.0 && m.value <= -0.5 * m.bend.least * reach * reach;
     if both_signs {
-        return Verdict(min(distance, sqrt(2.0 * m.value / -m.bend.least)), false, true);
+        let aside = sqrt(2.0 * m.value / -m.bend.least);
+        return Verdict(min(distance, aside), false, true, distance <= aside);
     }
     // 1/(1 - h) is -p at a pole of order p: f changes its sign there, but has no zero
     let pole = -1.0 / (1.0 - h);
     let is_pole = h > 1.0 && pole <= MOST_MULTIPLE && abs(pole - round(pole)) <= WHOLE * pole;
-    return Verdict(distance, touches, is_whole || is_pole);
+    return Verdict(distance, touches, is_whole || is_pole, true);
 }
 
 fn side_colour(value: f32) -> vec3f {
@@ -229,28 +242,75 @@ fn fill_colour(value: f32, verdict: Verdict) -> vec3f {
     return mix(side_colour(-value), side_colour(value), select(share, 1.0, verdict.touches));
 }
 
-fn colour_of(jet: Jet2, pixel: vec2f) -> vec3f {
+// Pixels from the middle of a sample to what is still seen in it.
+fn reach_of_line() -> f32 {
+    return 0.5 * max(settings.line_width + sample_window(), 1.4142135623730951 * sample_window());
+}
+
+// What a sample tells.
+struct Sight {
+    colour: vec3f,     // where no line is near: of the sample
+    near: bool,
+    value: f32,        // of f
+    verdict: Verdict,
+    to_zero: vec2f,    // from where f was asked to the zero of the model, world units
+}
+
+fn plain_sight(colour: vec3f) -> Sight {
+    return Sight(colour, false, 0.0, Verdict(FAR, false, true, false), vec2f());
+}
+
+fn sight_of(jet: Jet2, pixel: vec2f) -> Sight {
     if !is_finite(jet.value) {
         if is_nan(jet.value) {
-            return undefined_colour(pixel);
+            return plain_sight(undefined_colour(pixel));
         }
-        return infinite_colour(pixel, side_colour(jet.value));
+        return plain_sight(infinite_colour(pixel, side_colour(jet.value)));
     }
     if !(is_finite(jet.dx) & is_finite(jet.dy)) {
-        return doubtful(side_colour(jet.value), pixel);
+        return plain_sight(doubtful(side_colour(jet.value), pixel));
     }
     let unit = per_pixel(jet);
     let side = select(1.0, -1.0, unit.value < 0.0);
     let slope = length(vec2f(unit.dx, unit.dy));
     let bend = bend_of(unit, side);
     // most samples are so far from any zero of the model that neither line nor other side reaches them
-    let reach = 0.5 * max(settings.line_width + sample_window(), 1.4142135623730951 * sample_window());
+    let reach = reach_of_line();
     if abs(unit.value) > reach * (slope + 0.5 * reach * bend.norm) {
-        return side_colour(jet.value);
+        return plain_sight(side_colour(jet.value));
     }
-    let verdict = verdict_of(model_of(jet, unit, slope, side, bend));
+    var verdict = verdict_of(model_of(jet, unit, slope, side, bend));
+    verdict.ahead = verdict.ahead & (verdict.distance < reach);
+    let downhill = -side * vec2f(unit.dx, unit.dy) / max(slope, 1e-30);
+    return Sight(vec3f(), true, jet.value, verdict, verdict.distance * view.pixel * downhill);
+}
+
+// What is seen after a look at f at the zero of the model.
+fn looked_again(sight: Sight, there: Jet2) -> Sight {
+    var next = sight;
+    next.verdict.ahead = false;
+    let known = is_finite(there.value) && is_finite(there.dx) && is_finite(there.dy);
+    if !known || (there.value > 0.0) != (sight.value > 0.0) {
+        return next;
+    }
+    let gradient = vec2f(there.dx, there.dy);
+    let slope = max(length2_safe(gradient), 1e-37);
+    let away = abs(there.value) / slope;
+    let further = min(away / view.pixel, FAR);
+    next.verdict.distance += further;
+    // not where the rest is no more than can be seen, or all of it is out of sight
+    next.verdict.ahead = (further > 0.05) & (next.verdict.distance < reach_of_line());
+    next.to_zero = select(-away, away, there.value < 0.0) * (gradient / slope);
+    return next;
+}
+
+fn colour_of(sight: Sight, pixel: vec2f) -> vec3f {
+    if !sight.near {
+        return sight.colour;
+    }
+    let verdict = sight.verdict;
     let line = line_coverage(verdict.distance, settings.line_width, sample_window());
-    let fill = fill_colour(jet.value, verdict);
+    let fill = fill_colour(sight.value, verdict);
     if !verdict.settled {
         return doubtful(fill, pixel);
     }
@@ -263,5 +323,20 @@ fn doubtful(colour: vec3f, pixel: vec2f) -> vec3f {
 }
 
 fn shade(pixel: vec2f) -> vec4f {
-    return vec4f(colour_of(field_jet2(offset_from_pixel(pixel)), pixel), 1.0);
+    var at = offset_from_pixel(pixel);
+    var sight = Sight();
+    for (var look = 0u; look < LOOKS; look++) {
+        // at one place, as drivers copy the formula to each
+        let jet = field_jet2(at);
+        if look == 0u {
+            sight = sight_of(jet, pixel);
+        } else {
+            sight = looked_again(sight, jet);
+        }
+        if !(jet.branches & sight.verdict.ahead) {
+            break;
+        }
+        at += sight.to_zero;
+    }
+    return vec4f(colour_of(sight, pixel), 1.0);
 }

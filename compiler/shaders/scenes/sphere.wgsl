@@ -54,6 +54,7 @@ struct Jet {
     value: vec2f,
     dz: vec2f,
     dzbar: vec2f,
+    exponent: f32,
 }
 
 // f with its derivatives by z at z, and by w at w = 1/z.
@@ -200,13 +201,14 @@ fn on_screen(jet: Jet, chart: Chart) -> Jet {
     let dz = 0.5 * (chart.right - turned(chart.up));
     let dzbar = 0.5 * (chart.right + turned(chart.up));
     if all(jet.dzbar == vec2f()) {
-        return Jet(jet.value, product(jet.dz, dz), product(jet.dz, dzbar));
+        return Jet(jet.value, product(jet.dz, dz), product(jet.dz, dzbar), jet.exponent);
     }
     let flip = vec2f(1.0, -1.0);
     return Jet(
         jet.value,
         product(jet.dz, dz) + product(jet.dzbar, flip * dzbar),
         product(jet.dz, dzbar) + product(jet.dzbar, flip * dz),
+        jet.exponent,
     );
 }
 

@@ -27,7 +27,7 @@ fn key_at(pixel: vec2f, side: f32, aspect: f32) -> Key {
 
 // The identity on the square key: value z of size `reach` at the edges, and its derivative per world unit.
 fn key_jet(key: Key, reach: f32) -> Jet {
-    return Jet(reach * key.place, vec2f(reach * key.step.x / view.pixel, 0.0), vec2f());
+    return Jet(reach * key.place, vec2f(reach * key.step.x / view.pixel, 0.0), vec2f(), 0.0);
 }
 
 // A picture with the key's border on it.

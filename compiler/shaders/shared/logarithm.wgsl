@@ -1,11 +1,13 @@
 // Values in logarithmic form, with how fast they change from pixel to pixel. Nothing here squares a value that may be
 // huge or tiny.
 
-// A complex value and its derivatives.
+// A complex value and its derivatives, all by 2^exponent. That is 0 but where they were computed in f64 and are beyond the range of
+// f32: then the value is one whose squares are, too.
 struct Jet {
     value: vec2f,
-    dz: vec2f,     // ∂f/∂z
-    dzbar: vec2f,  // ∂f/∂z̄
+    dz: vec2f,      // ∂f/∂z
+    dzbar: vec2f,   // ∂f/∂z̄
+    exponent: f32,
 }
 
 // A value in logarithmic polar form, with the lengths of the gradients of both coordinates per pixel.
@@ -81,8 +83,8 @@ fn polar_from_jet(jet: Jet) -> Polar {
         let scaled = scale_value(jet.value);
         w = scaled.mantissa;
         squared = dot(w, w);
-        exponent = scaled.exponent;
-        half_scale = exp2(-0.5 * exponent);
+        exponent = scaled.exponent + jet.exponent;
+        half_scale = exp2(-0.5 * scaled.exponent);
     }
     let over_size = inverseSqrt(squared);
     let lengths = rates_of_log(jet.dz, jet.dzbar, w * over_size);
@@ -129,12 +131,13 @@ fn log2_parts(x: f32) -> vec2f {
 // How fast re f and im f change, per pixel: with df = a dz + b dz̄ their gradients have the lengths |a + conj b| and
 // |a - conj b|. Those that are not known (NaN, overflow) count as none.
 fn part_rates(jet: Jet) -> vec2f {
+    let pixel = view.pixel * min(exp2(jet.exponent), 1e30);
     if all(jet.dzbar == vec2f()) {
-        return vec2f(min(known_length(jet.dz) * view.pixel, 1e37));
+        return vec2f(min(known_length(jet.dz) * pixel, 1e37));
     }
     let reflected = vec2f(jet.dzbar.x, -jet.dzbar.y);
     let lengths = vec2f(known_length(jet.dz + reflected), known_length(jet.dz - reflected));
-    return min(lengths * view.pixel, vec2f(1e37));
+    return min(lengths * pixel, vec2f(1e37));
 }
 
 // Length of a vector, 0 where it is not known (NaN) or too large for f32.

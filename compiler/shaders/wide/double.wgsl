@@ -96,6 +96,36 @@ fn real_to_f32(x: real) -> f32 {
     return select(f32(x), unbounded, (top & 0x7ff00000u) == 0x7ff00000u);
 }
 
+/// ⌊log2⌋ of the greater part of z; -4000 where that is 0, subnormal, infinite or NaN.
+fn complex_octave(z: Complex) -> i32 {
+    let top = max(double_top(z.re) & 0x7fffffffu, double_top(z.im) & 0x7fffffffu) >> 20u;
+    return select(i32(top) - 1023, -4000, (top == 0u) | (top == 2047u));
+}
+
+/// The e for which a value and its derivatives divided by 2^e are in the range of f32; 0 where they are as they are, and of a value
+/// that is 0, infinite or NaN. A value that is divided has its greater part at 2^60 at least, or at 2^-100 if it is tiny; a
+/// derivative that is 2^50 times as large is beyond the range in any case.
+fn complex_beyond(value: Complex, dz: Complex, dzbar: Complex) -> f32 {
+    let own = complex_octave(value);
+    if own == -4000 {
+        return 0.0;
+    }
+    if own < -126 {
+        return f32(own + 100);
+    }
+    let slopes = max(complex_octave(dz), complex_octave(dzbar));
+    return f32(max(max(own - 125, min(slopes - 110, own - 60)), 0));
+}
+
+/// x / 2^e in f32; finite ones that are beyond 2^126 are that large.
+fn real_to_f32_beyond(x: real, e: f32) -> f32 {
+    let y = scale(x, -i32(e));
+    let nearest = real_to_f32(y);
+    let limit = 8.507059173023462e37;
+    let is_beyond = is_finite(x) & (real_abs(y) > f64(limit));
+    return select(nearest, select(limit, -limit, sign_is_set(y)), is_beyond);
+}
+
 /// n exactly.
 fn real_from_i32(n: i32) -> real {
     return f64(n);

@@ -2,6 +2,7 @@
 //!
 //! Vectors do not occur here: the checker takes them apart, so that every pass sees numbers only.
 
+mod branches;
 mod cost;
 mod graph;
 mod infix;
@@ -17,6 +18,7 @@ mod text;
 mod transcribe;
 mod verify;
 
+pub use branches::has_branches;
 pub use cost::{Cost, cost};
 pub use graph::{Graph, Id, Node, OverBudget};
 pub use infix::{LeafNames, to_infix};

@@ -86,7 +86,14 @@ pub enum Output {
     Re(usize),
     /// Imaginary part of a complex node.
     Im(usize),
+    /// The power of two that complex nodes are divided by, as a real: see [`super::beyond`].
+    Exponent(JetNodes),
+    /// The first of these nodes, divided by that power of the others.
+    Scaled(usize, JetNodes),
 }
+
+/// A complex value and its derivatives by z and by its conjugate, among the roots.
+pub type JetNodes = [usize; 3];
 
 /// The shape of the function that is generated.
 #[derive(Clone, Debug)]
@@ -183,7 +190,7 @@ pub(super) struct Lowering<'g, 'l, 's> {
     /// What the one node computes that needs it: powers in products, hashes of which digits are wanted.
     pub(super) scaled: Vec<bool>,
     pub(super) cells: Cells,
-    /// Results of functions that are computed in pairs, by pair function and operand.
+    /// Results of functions that several results need, by function and (first) operand: those that are computed in pairs.
     pub(super) pairs: FxHashMap<(&'static str, Id), Handle<Expression>>,
     pub(super) values: Vec<Option<Handle<Expression>>>,
     /// Levels of unnamed expressions below each value.
@@ -621,6 +628,14 @@ impl Lowering<'_, '_, '_> {
             Output::Node(k) => self.returned(root(k)?)?,
             Output::Re(k) => self.returned_part(root(k)?, 0)?,
             Output::Im(k) => self.returned_part(root(k)?, 1)?,
+            Output::Exponent(jet) => {
+                let jet = [root(&jet[0])?, root(&jet[1])?, root(&jet[2])?];
+                self.exponent(jet)?
+            }
+            Output::Scaled(k, jet) => {
+                let jet = [root(&jet[0])?, root(&jet[1])?, root(&jet[2])?];
+                self.scaled_by_exponent(root(k)?, jet)?
+            }
             Output::Zero(ty) => self.body.declare(Expression::ZeroValue(*ty)),
             Output::Compose(ty, parts) => {
                 let components = parts
@@ -636,7 +651,7 @@ impl Lowering<'_, '_, '_> {
     }
 
     /// A result, in the format of the function's results.
-    fn returned(&mut self, root: Id) -> Result<Handle<Expression>, LowerError> {
+    pub(super) fn returned(&mut self, root: Id) -> Result<Handle<Expression>, LowerError> {
         let value = self.value(root)?;
         match self.graph.ty(root) {
             Ty::Real if self.converts() => self.narrowed(value),

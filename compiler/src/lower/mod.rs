@@ -1,5 +1,6 @@
 //! From the IR to a naga function.
 
+mod beyond;
 mod body;
 mod defined;
 mod exactness;
@@ -18,7 +19,7 @@ mod types;
 
 pub use exactness::Exactness;
 pub use format::Format;
-pub use function::{Argument, Base, Interface, Leaves, Output, lower};
+pub use function::{Argument, Base, Interface, JetNodes, Leaves, Output, lower};
 pub use identifier::identifier;
 pub use tier::Tier;
 pub use types::{NagaTypes, NumberTypes};

@@ -8,7 +8,7 @@ use super::substitute::substitute;
 use crate::derive::{ComplexVariable, forward, gradient, jet};
 use crate::formula::Formula;
 use crate::integrate::{Otherwise, field_integral, of_integrals};
-use crate::ir::{Graph, Id, Ty};
+use crate::ir::{Graph, Id, Ty, has_branches};
 use crate::link::{Linker, Provider};
 use crate::lower::{Argument, Interface, Leaves, LowerError, NagaTypes, Output, Precision, lower};
 use crate::stable::finish;
@@ -226,13 +226,15 @@ impl Demand<'_> {
     }
 
     /// Value, first and second derivatives of a real function of the plane, in the order of `Jet2`: f, ∂f/∂x, ∂f/∂y,
-    /// ∂²f/∂x², ∂²f/∂x∂y, ∂²f/∂y². Derivatives by coordinates that the formula does not take are zero.
+    /// ∂²f/∂x², ∂²f/∂x∂y, ∂²f/∂y², and whether they may jump. Derivatives by coordinates that the formula does not take are
+    /// zero.
     fn second_jet(&self, stub: &Function) -> Result<Answer, LowerError> {
         let (mut graph, roots) = self.graph();
         let leaves = self.leaves(&mut graph);
         let result = stub.result.as_ref().ok_or(LowerError::NoForm("a jet"))?.ty;
         let derived = gradient(&mut graph, roots[0], &leaves).map_err(LowerError::NoDerivative)?;
         let (zero, one) = (graph.real(0.0), graph.real(1.0));
+        let jumps = graph.truth(has_branches(&graph, &[derived.value]));
         let mut roots = vec![derived.value, zero, zero, zero, zero, zero];
         for (k, &partial) in derived.partials.iter().enumerate().take(2) {
             roots[1 + k] = partial;
@@ -242,6 +244,7 @@ impl Demand<'_> {
                 roots[3 + k + j] = second[0].unwrap_or(zero);
             }
         }
+        roots.push(jumps);
         let parts = (0..roots.len()).map(Output::Node).collect();
         Ok(Answer {
             graph,
@@ -326,7 +329,8 @@ impl Demand<'_> {
         }
     }
 
-    /// Value and both Wirtinger derivatives by the complex variable that `inputs` are: one complex input, or its parts.
+    /// Value and both Wirtinger derivatives by the complex variable that `inputs` are: one complex input, or its parts; and
+    /// the power of two that all are by.
     fn jet(
         &self,
         mut graph: Graph,
@@ -345,14 +349,14 @@ impl Demand<'_> {
         let result = stub.result.as_ref().ok_or(LowerError::NoForm("a jet"))?.ty;
         let jet = jet(&mut graph, roots[0], variable).map_err(LowerError::NoDerivative)?;
         let mut roots = vec![jet.value, jet.dz];
+        roots.extend(jet.dzbar);
+        let all = [0, 1, roots.len() - 1];
         let dzbar = match jet.dzbar {
-            Some(dzbar) => {
-                roots.push(dzbar);
-                Output::Node(2)
-            }
+            Some(_) => Output::Scaled(2, all),
             None => Output::Zero(types.vec2),
         };
-        let output = Output::Compose(result, vec![Output::Node(0), Output::Node(1), dzbar]);
+        let [value, dz] = [0, 1].map(|k| Output::Scaled(k, all));
+        let output = Output::Compose(result, vec![value, dz, dzbar, Output::Exponent(all)]);
         Ok(Answer {
             graph,
             roots,

@@ -231,7 +231,9 @@ fn column_value(column: &Output, values: &[Number]) -> f64 {
     let (k, imaginary) = match column {
         Output::Node(k) | Output::Re(k) => (*k, false),
         Output::Im(k) => (*k, true),
-        Output::Zero(_) | Output::Compose(..) => return 0.0,
+        Output::Zero(_) | Output::Compose(..) | Output::Exponent(_) | Output::Scaled(..) => {
+            return 0.0;
+        }
     };
     match values.get(k) {
         Some(Number::Real(x)) => {

@@ -120,7 +120,9 @@ fn encode_exr(
         .iter()
         .map(|(keyword, text)| format!("{keyword}: {text}"))
         .collect();
-    attributes.comments = Text::new_or_none(comments.join("\n"));
+    // in UTF-8, where the crate's own way takes a letter for a byte and refuses those above 255
+    let comments = comments.join("\n");
+    attributes.comments = Some(Text::from_slice_unchecked(comments.as_bytes()));
     let layer = Layer::new(
         (size.width as usize, size.height as usize),
         attributes,
@@ -214,7 +216,8 @@ mod tests {
     #[test]
     fn an_exr_holds_linear_light() {
         let folder = tempfile::tempdir().unwrap();
-        let metadata = Metadata(vec![("Formula", "x + π".into())]);
+        let formula = "x² + π ≤ z̄, 波";
+        let metadata = Metadata(vec![("Formula", formula.into()), ("Software", "é".into())]);
         for (format, error) in [(Format::ExrFloat, 0.0), (Format::ExrHalf, 0.5_f32.powi(11))] {
             let path = folder.path().join("a.exr");
             write(&path, (format, Alpha::Kept), SIZE, &metadata, draw).unwrap();
@@ -226,6 +229,9 @@ mod tests {
                 .all_attributes()
                 .from_file(path)
                 .unwrap();
+            let comments = image.layer_data.attributes.comments.unwrap();
+            let told = format!("Formula: {formula}\nSoftware: é");
+            assert_eq!(std::str::from_utf8(comments.as_slice()), Ok(told.as_str()));
             let channels = &image.layer_data.channel_data.list;
             let names: Vec<String> = channels.iter().map(|c| c.name.to_string()).collect();
             assert_eq!(names, ["A", "B", "G", "R"]);

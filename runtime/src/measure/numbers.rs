@@ -124,6 +124,7 @@ fn at(pictures: &Pictures, k: usize) -> Vec<[f64; 4]> {
 fn field(readings: &[Reading], numbers: &[[f64; 4]], pixel: f64) -> Option<Field> {
     let mut out = Field::default();
     let mut is_field = false;
+    let mut unit = 1.0;
     for (reading, &[a, b, c, d]) in readings.iter().zip(numbers) {
         match reading.meaning {
             Meaning::Jet(3) => {
@@ -138,11 +139,12 @@ fn field(readings: &[Reading], numbers: &[[f64; 4]], pixel: f64) -> Option<Field
             Meaning::Rate => out.rate = a,
             Meaning::Complex => {
                 is_field = true;
-                out.value = [a, b];
+                unit = c.exp2();
+                out.value = [a * unit, b * unit];
             }
             Meaning::Derivatives => {
-                out.slopes = [a, b, c, d];
-                out.rate = (a.hypot(b) + c.hypot(d)) * pixel;
+                out.slopes = [a, b, c, d].map(|slope| slope * unit);
+                out.rate = (a.hypot(b) + c.hypot(d)) * unit * pixel;
             }
             Meaning::Distance | Meaning::Point | Meaning::Light => {}
         }
@@ -260,6 +262,20 @@ mod tests {
         assert!((max(Quantity::Value) - 0.1).abs() < 1e-12);
         assert!((max(Quantity::Gradient) - 0.5).abs() < 1e-12);
         assert!((max(Quantity::Position) - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_beyond_single_precision_is_by_a_power_of_two() {
+        let truth = vec![vec![[3e30, 4e30, 0.0, 0.0]], vec![[0.0, 2e30, 0.0, 0.0]]];
+        let by = 2f64.powi(-40);
+        let parts = [3e30, 4e30, 2e30].map(|x| x * by);
+        let value = [parts[0], parts[1], 40.0, 0.0];
+        let found = vec![vec![value], vec![[0.0, parts[2], 0.0, 0.0]]];
+        let numbers = compare(readings("domain"), &truth, &found, [0.5, 100.0]);
+        for quantity in [Quantity::Value, Quantity::Gradient] {
+            let number = of(&numbers, quantity);
+            assert_eq!((number.error.max, number.apart), (0.0, 0.0));
+        }
     }
 
     #[test]

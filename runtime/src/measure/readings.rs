@@ -59,7 +59,7 @@ pub(super) enum Meaning {
     Jet(usize),
     /// A real value, its gradient, and how much it changes from pixel to pixel, in two pictures.
     Rate,
-    /// A complex value.
+    /// A complex value, and the power of two that it is by; its derivatives in the next picture are, too.
     Complex,
     /// Its derivatives by z and by its conjugate.
     Derivatives,
@@ -107,7 +107,13 @@ const IMPLICIT: &[Reading] = &[reading(
 )];
 
 const MAP: &[Reading] = &[
-    reading(Meaning::Complex, &[result("map_jet", ".value", 0, true)]),
+    reading(
+        Meaning::Complex,
+        &[
+            result("map_jet", ".value", 0, false),
+            result("map_jet", ".exponent", 2, true),
+        ],
+    ),
     reading(
         Meaning::Derivatives,
         &[
@@ -119,7 +125,13 @@ const MAP: &[Reading] = &[
 
 /// The derivative is that by pixels of the view, in which the picture's is, too.
 const SPHERE: &[Reading] = &[
-    reading(Meaning::Complex, &[result("seen_jet", ".value", 0, true)]),
+    reading(
+        Meaning::Complex,
+        &[
+            result("seen_jet", ".value", 0, false),
+            result("seen_jet", ".exponent", 2, true),
+        ],
+    ),
     reading(
         Meaning::Derivatives,
         &[

@@ -1,5 +1,6 @@
 //! `pullback bench --tables`: the tables of the documentation for one adapter, each in a file of its own, with its chart.
 
+use std::cell::RefCell;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -49,7 +50,8 @@ const ONE_OF_EACH: [&str; 17] = [
     "ember",
 ];
 
-/// Writes all tables that are wanted, within the budget as far as single pictures allow. What is there by then is kept.
+/// Writes all tables that are wanted, within the budget as far as single pictures allow. What is there by then is kept. A line with
+/// which the adapter is lost, as by a shader that its driver takes too long for, is passed over, and the adapter opened again.
 pub(super) fn run(
     arguments: &BenchArguments,
     folder: &Path,
@@ -59,7 +61,7 @@ pub(super) fn run(
         what: name(folder),
         error,
     })?;
-    let gpu = super::super::open(&arguments.device.adapter, console)?;
+    let mut gpu = super::super::open(&arguments.device.adapter, console)?;
     let wanted: Vec<Part> = match arguments.only.as_slice() {
         [] => Part::value_variants().to_vec(),
         some => some.to_vec(),
@@ -71,14 +73,28 @@ pub(super) fn run(
         let weights: f64 = wanted[k..].iter().map(|part| part.weight()).sum();
         let left = end.saturating_duration_since(Instant::now());
         let until = Instant::now() + left.mul_f64(part.weight() / weights);
-        let clerk = Clerk {
-            arguments,
-            folder,
-            gpu: &gpu,
-            until,
-            console,
+        let mut passed = Vec::new();
+        missing += loop {
+            let clerk = Clerk {
+                arguments,
+                folder,
+                gpu: &gpu,
+                until,
+                passed: &passed,
+                lost: RefCell::new(None),
+                console,
+            };
+            let result = clerk.write(part);
+            match (result, clerk.lost.into_inner()) {
+                (Err(failure), Some(label)) => {
+                    failure.report(console);
+                    console.warning(&format!("{label} is left out; the adapter is opened again"));
+                    passed.push(label);
+                    gpu = super::super::open(&arguments.device.adapter, console)?;
+                }
+                (result, _) => break result? + passed.len(),
+            }
         };
-        missing += clerk.write(part)?;
         report::write(folder)?;
     }
     if missing > 0 {
@@ -95,6 +111,10 @@ struct Clerk<'a> {
     folder: &'a Path,
     gpu: &'a Gpu,
     until: Instant,
+    /// Lines with which the adapter was lost.
+    passed: &'a [String],
+    /// The line with which it is lost now.
+    lost: RefCell<Option<String>>,
     console: &'a Console,
 }
 
@@ -210,7 +230,7 @@ impl Clerk<'_> {
     ) -> Result<(String, usize), Failure> {
         let mut table = summary::Table::open(head, Some(path))?;
         let mut items: Vec<(String, T)> = items.into_iter().collect();
-        items.retain(|(label, _)| !table.has(label));
+        items.retain(|(label, _)| !table.has(label) && !self.passed.contains(label));
         let total = items.len();
         for (k, (label, item)) in items.iter().enumerate() {
             let now = Instant::now();
@@ -222,7 +242,10 @@ impl Clerk<'_> {
             match line(item, (left / (total - k) as f64).max(SHORTEST)) {
                 Ok(line) => table.add(&line)?,
                 // what is found so far is in the file
-                Err(failure) if self.gpu.is_lost() => return Err(failure),
+                Err(failure) if self.gpu.is_lost() => {
+                    self.lost.replace(Some(label.clone()));
+                    return Err(failure);
+                }
                 Err(failure) => {
                     failure.report(self.console);
                     self.console.warning(&format!("{label} is left out"));
