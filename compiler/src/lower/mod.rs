@@ -3,6 +3,7 @@
 mod body;
 mod defined;
 mod exactness;
+mod factors;
 mod format;
 mod function;
 mod fused;
