@@ -72,18 +72,19 @@ fn engine(folder: &Path) -> Result<HashMap<String, Vec<u8>>, Silence> {
     Ok(files)
 }
 
-/// Compiles each shader, and draws with it a square picture of so many pixels on a side: a canvas shader on a rectangle that fills it, a
+/// Compiles each shader, and draws with it a square picture, of as many pixels on a side as stand beside it: a canvas shader on a rectangle that fills it, a
 /// spatial one on a box four units before the camera, with a wall through the box's middle on the left.
 ///
 /// # Errors
 /// There is no browser or no Godot, or they do not answer.
-pub fn drawn(shaders: &[String], side: usize) -> Result<Vec<Drawn>, Silence> {
+pub fn drawn(shaders: &[(String, usize)]) -> Result<Vec<Drawn>, Silence> {
     let folder = judges().ok_or_else(|| Silence::Missing("there is no home folder".to_owned()))?;
     let mut files = engine(&folder)?;
     files.insert("game.pck".to_owned(), pack(&GAME));
-    let jobs: Vec<String> = shaders.iter().map(|code| literal(code)).collect();
+    let jobs: Vec<String> = shaders.iter().map(|(code, _)| literal(code)).collect();
+    let sides: Vec<usize> = shaders.iter().map(|(_, side)| *side).collect();
     let page = PAGE
-        .replace("SIDE", &side.to_string())
+        .replace("SIDES", &format!("{sides:?}"))
         .replace("JOBS", &format!("[{}]", jobs.join(",\n")));
     let answer = ask(&Site { page, files })?;
     let one = |line: &str| {

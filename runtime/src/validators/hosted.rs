@@ -97,7 +97,7 @@ fn by_three(code: &[u8], renderer: &str) -> Judgement {
 }
 
 fn by_godot(shader: String) -> Judgement {
-    let answer = godot::drawn(&[shader], 2);
+    let answer = godot::drawn(&[(shader, 2)]);
     let said = answer.map(|all| all.first().map_or_else(String::new, |d| d.said.clone()));
     judgement("Godot 4 (Compatibility renderer)".to_owned(), said)
 }
