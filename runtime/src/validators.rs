@@ -7,7 +7,13 @@ use pullback_compiler::{EmitWhat, Target};
 
 use judges::{Input, Judge};
 
+pub mod browser;
+pub mod godot;
+mod hosted;
 mod judges;
+mod metal;
+
+pub use hosted::{judge_in_browser, three};
 
 /// What a judge said.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,15 +42,7 @@ pub fn judge(code: &[u8], target: Target, what: &[EmitWhat]) -> Vec<Judgement> {
     let is_scene = what.contains(&EmitWhat::Scene);
     match target {
         Target::Wgsl | Target::Bevy | Target::Tsl => {
-            let text = match target {
-                // the line that says how to import it is naga_oil's
-                Target::Bevy => text
-                    .split_once('\n')
-                    .map_or("", |(_, rest)| rest)
-                    .to_owned(),
-                Target::Tsl => strings(&text),
-                _ => text,
-            };
+            let text = judged_text(&text, target);
             let mut out = vec![by_naga(&text)];
             // numbers of 64 bits are an extension of naga's
             if !text.contains("f64") {
@@ -59,8 +57,15 @@ pub fn judge(code: &[u8], target: Target, what: &[EmitWhat]) -> Vec<Judgement> {
         Target::Godot => all(judges::GODOT, plain_glsl(&text).as_bytes()),
         Target::Hlsl if is_scene => all(judges::HLSL_SCENE, code),
         Target::Hlsl => all(judges::HLSL, code),
-        // a scene has buffers and stages, which the header does not know
-        Target::Msl if is_scene => Vec::new(),
+        Target::Msl if is_scene => {
+            let mut out = all(judges::MSL_SCENE, code);
+            out.push(Judgement {
+                judge: "attributes (by the tables of Metal's specification)".to_owned(),
+                verdict: metal::wrong_attributes(&text)
+                    .map_or(Verdict::Accepted, Verdict::Rejected),
+            });
+            out
+        }
         Target::Msl => all(judges::MSL, code),
         Target::C => all(judges::C, code),
         Target::Spirv => all(judges::SPIRV, code),
@@ -68,8 +73,29 @@ pub fn judge(code: &[u8], target: Target, what: &[EmitWhat]) -> Vec<Judgement> {
     }
 }
 
+/// The WGSL of a text for a host.
+fn judged_text(text: &str, target: Target) -> String {
+    match target {
+        // the line that says how to import it is naga_oil's
+        Target::Bevy => text
+            .split_once('\n')
+            .map_or("", |(_, rest)| rest)
+            .to_owned(),
+        Target::Tsl => strings(text),
+        _ => text.to_owned(),
+    }
+}
+
 fn all(judges: &[Judge], code: &[u8]) -> Vec<Judgement> {
-    judges.iter().map(|judge| ask(judge, code)).collect()
+    // each is a process of its own, so that they may work side by side
+    std::thread::scope(|scope| {
+        let asked: Vec<_> = judges
+            .iter()
+            .map(|judge| scope.spawn(move || ask(judge, code)))
+            .collect();
+        let answers = asked.into_iter();
+        answers.filter_map(|answer| answer.join().ok()).collect()
+    })
 }
 
 /// What stands between backquotes.
@@ -128,12 +154,29 @@ fn ask(judge: &Judge, code: &[u8]) -> Judgement {
     }
 }
 
+/// A program that is installed, or that the script `pullback` has got.
+fn command(program: &str) -> Command {
+    let Some(kept) = browser::judges() else {
+        return Command::new(program);
+    };
+    let path = kept.join("bin").join(program);
+    if !path.exists() {
+        return Command::new(program);
+    }
+    let mut command = Command::new(path);
+    // the one that is a script over a library
+    if std::env::var_os("DXC_LIBRARY").is_none() {
+        command.env("DXC_LIBRARY", kept.join("dxc").join(judges::DXC_LIBRARY));
+    }
+    command
+}
+
 /// Starts a program and gives it the code.
 fn run(judge: &Judge, code: &[u8]) -> Verdict {
     let Ok(folder) = tempfile::tempdir() else {
         return Verdict::Absent;
     };
-    let mut command = Command::new(judge.program);
+    let mut command = command(judge.program);
     let written = match judge.input {
         Input::Standard => Ok(()),
         Input::File(name) => {
@@ -142,9 +185,13 @@ fn run(judge: &Judge, code: &[u8]) -> Verdict {
             command.args(judge.arguments).arg(path);
             written
         }
-        Input::Headers(name, text) => {
+        Input::Headers(headers) => {
             command.arg("-I").arg(folder.path());
-            std::fs::write(folder.path().join(name), text)
+            headers.iter().try_for_each(|(name, text)| {
+                let path = folder.path().join(name);
+                path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+                std::fs::write(path, text)
+            })
         }
     };
     if let Err(error) = written {

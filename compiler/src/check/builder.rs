@@ -322,23 +322,28 @@ impl<'a> Builder<'a> {
     fn bind_locals(&mut self, locals: &'a [Local], span: Span) {
         for local in locals {
             let value = self.local(local);
-            self.name_value(&local.name.text, &value);
+            // rather than by the function that it is a value of
+            self.name_by(&local.name.text, &value, Graph::rename);
             self.bind_local(&local.name.text, value, span);
         }
     }
 
     /// Remembers the user's name for a computed value.
     pub fn name_value(&mut self, name: &str, value: &Value) {
+        self.name_by(name, value, Graph::set_name);
+    }
+
+    fn name_by(&mut self, name: &str, value: &Value, set: fn(&mut Graph, Id, &str)) {
         if self.source != Source::Program {
             return;
         }
         let computed = |g: &Graph, id: Id| matches!(g.node(id).op, Op::Apply(_));
         match value {
-            Value::Scalar(id) if computed(&self.graph, *id) => self.graph.set_name(*id, name),
+            Value::Scalar(id) if computed(&self.graph, *id) => set(&mut self.graph, *id, name),
             Value::Vector(items) => {
                 for (&id, letter) in items.iter().zip(["x", "y", "z", "w"]) {
                     if computed(&self.graph, id) {
-                        self.graph.set_name(id, &format!("{name}_{letter}"));
+                        set(&mut self.graph, id, &format!("{name}_{letter}"));
                     }
                 }
             }

@@ -7,12 +7,14 @@ use super::Target;
 use super::build::Built;
 use super::parts::Part;
 use super::request::Emission;
-use crate::ir::{Graph, Id, Op, Prim, Ty};
+use crate::ir::{Graph, Id, Op, Prim, SINGLE_CALLS, Ty, expand_powers};
 use crate::lower::Precision;
 use crate::table;
 
 /// Most lines of the program that are quoted.
 const MOST_LINES: usize = 24;
+/// Columns of a comment of the program.
+const COLUMNS: usize = 92;
 
 /// The head as lines without a comment's mark.
 pub(super) fn header(
@@ -29,12 +31,14 @@ pub(super) fn header(
     for (function, signature) in built.iter().zip(signatures) {
         out.push('\n');
         let _ = writeln!(out, "{signature}");
-        let _ = writeln!(out, "  returns {}", function.returns);
-        if !function.remark.is_empty() {
-            let _ = writeln!(out, "  {}", function.remark);
+        match function.remark.as_str() {
+            "" => _ = writeln!(out, "  returns {}", function.returns),
+            remark => _ = writeln!(out, "  returns {remark}"),
         }
-        for (name, what) in &function.arguments {
-            let _ = writeln!(out, "  {name}: {what}");
+        // those of one kind together
+        for alike in function.arguments.chunk_by(|a, b| a.1 == b.1) {
+            let names: Vec<&str> = alike.iter().map(|a| a.0.as_str()).collect();
+            let _ = writeln!(out, "  {}: {}", names.join(", "), alike[0].1);
         }
     }
     out.push('\n');
@@ -58,7 +62,7 @@ fn quote(out: &mut String, source: &str) {
         .map(str::trim_end)
         .filter(|l| !l.trim().is_empty())
         .collect();
-    for line in lines.iter().take(MOST_LINES) {
+    for line in paragraphs(&lines).iter().take(MOST_LINES) {
         // a comment of C goes on behind a backslash, and ends early where its own end stands in it
         let line = line.trim_end_matches('\\').replace("??", "? ?");
         let line = line.replace("*/", "* /").replace('`', "'");
@@ -67,6 +71,34 @@ fn quote(out: &mut String, source: &str) {
     if lines.len() > MOST_LINES {
         let _ = writeln!(out, "  and {} more lines", lines.len() - MOST_LINES);
     }
+}
+
+/// The lines of a program with its comments broken anew, so that they fit behind another comment's mark.
+fn paragraphs(lines: &[&str]) -> Vec<String> {
+    let mut out: Vec<String> = Vec::new();
+    let mut is_open = false;
+    for line in lines {
+        let Some(words) = line.strip_prefix("// ") else {
+            is_open = false;
+            out.push((*line).to_owned());
+            continue;
+        };
+        if !is_open {
+            out.push("//".to_owned());
+            is_open = true;
+        }
+        for word in words.split_whitespace() {
+            let is_full = |line: &String| line.chars().count() + 1 + word.chars().count() > COLUMNS;
+            if out.last().is_none_or(is_full) {
+                out.push("//".to_owned());
+            }
+            if let Some(last) = out.last_mut() {
+                last.push(' ');
+                last.push_str(word);
+            }
+        }
+    }
+    out
 }
 
 /// The declared bounds of the functions that are used.
@@ -131,12 +163,19 @@ fn operations(parts: &[Part]) -> Vec<(Prim, bool)> {
 }
 
 fn of_graph(graph: &Graph, roots: &[Id]) -> Vec<(Prim, bool)> {
-    let live = graph.reachable(roots);
+    // small powers are products
+    let (graph, roots) = expand_powers(graph, roots, &SINGLE_CALLS);
+    let live = graph.reachable(&roots);
     let mut out = Vec::new();
     for (id, node) in graph.ids().zip(graph.nodes()) {
         if let Op::Apply(prim) = node.op
             && live[id.index()]
         {
+            // a constant divisor is no 0
+            let divisor = node.args.last().and_then(|&a| graph.as_real(a));
+            if prim == Prim::Div && divisor.is_some_and(|v| v != 0.0) {
+                continue;
+            }
             let complex = node.args.iter().any(|&a| graph.ty(a) == Ty::Complex);
             out.push((prim, complex));
         }

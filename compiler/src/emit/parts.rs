@@ -180,6 +180,12 @@ fn name_results(part: &mut Part) {
         return;
     }
     let members = result_names(part);
+    if part.values == 1 {
+        let (graph, root) = (&mut part.evaluation.graph, part.evaluation.roots[0]);
+        if matches!(graph.node(root).op, Op::Apply(_)) {
+            graph.rename(root, &part.formula.name);
+        }
+    }
     for (k, name) in members.iter().enumerate().skip(part.values) {
         let root = part.evaluation.roots[k];
         let graph = &mut part.evaluation.graph;

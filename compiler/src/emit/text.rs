@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use naga::back::{glsl, hlsl, msl, spv, wgsl};
 use naga::valid::ModuleInfo;
-use naga::{Function, Handle, Module, ShaderStage};
+use naga::{AddressSpace, Function, Handle, Module, ShaderStage, StorageAccess};
 
 use super::build::BuiltModule;
 use super::header::header;
@@ -249,7 +249,12 @@ fn write_glsl(module: &Module, info: &ModuleInfo) -> Result<String, String> {
 }
 
 fn write_hlsl(module: &Module, info: &ModuleInfo) -> Result<String, String> {
-    let (options, pipeline) = (hlsl::Options::default(), hlsl::PipelineOptions::default());
+    let options = hlsl::Options {
+        // every loop of a scene ends by itself
+        force_loop_bounding: false,
+        ..hlsl::Options::default()
+    };
+    let pipeline = hlsl::PipelineOptions::default();
     let mut out = String::new();
     hlsl::Writer::new(&mut out, &options, &pipeline)
         .write(module, info, None)
@@ -257,9 +262,41 @@ fn write_hlsl(module: &Module, info: &ModuleInfo) -> Result<String, String> {
     Ok(out)
 }
 
+/// Buffers of an entry point have the numbers of their bindings. The sizes of those that end in an array of any length are in
+/// one more, behind the last.
+fn msl_resources(module: &Module) -> msl::EntryPointResources {
+    let bound = || {
+        let globals = module.global_variables.iter().map(|(_, global)| global);
+        globals.filter_map(|global| Some((global.space, global.binding?)))
+    };
+    let slot = |binding: u32| u8::try_from(binding).ok();
+    let target = |(space, at): (AddressSpace, naga::ResourceBinding)| {
+        let is_written = matches!(space, AddressSpace::Storage { access } if access.contains(StorageAccess::STORE));
+        let target = msl::BindTarget {
+            buffer: slot(at.binding),
+            mutable: is_written,
+            ..msl::BindTarget::default()
+        };
+        (at, target)
+    };
+    let last = bound().map(|(_, at)| at.binding).max();
+    msl::EntryPointResources {
+        resources: bound().map(target).collect(),
+        immediates_buffer: None,
+        sizes_buffer: slot(last.map_or(0, |last| last + 1)),
+    }
+}
+
 fn write_msl(module: &Module, info: &ModuleInfo) -> Result<String, String> {
+    let entries = module.entry_points.iter();
     let options = msl::Options {
         lang_version: (2, 0),
+        per_entry_point_map: entries
+            .map(|entry| (entry.name.clone(), msl_resources(module)))
+            .collect(),
+        fake_missing_bindings: false,
+        // every loop of a scene ends by itself
+        force_loop_bounding: false,
         ..msl::Options::default()
     };
     msl::write_string(module, info, &options, &msl::PipelineOptions::default())

@@ -54,6 +54,9 @@ impl Integrator<'_> {
         }
         match self.degree(root) {
             Some(1) if self.may_cancel(root) => {
+                if let Some(mean) = self.mean_of_height(root) {
+                    return mean;
+                }
                 let middle = self.pair_in_middle(root);
                 return middle.total(self.g);
             }

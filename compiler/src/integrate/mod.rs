@@ -27,6 +27,7 @@ mod gaussian;
 mod gaussian_waves;
 mod group;
 mod growing;
+mod height;
 mod infinite;
 mod legendre;
 mod local;

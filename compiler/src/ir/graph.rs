@@ -192,6 +192,11 @@ impl Graph {
         self.names.entry(id).or_insert_with(|| name.to_owned());
     }
 
+    /// Gives a value another name.
+    pub fn rename(&mut self, id: Id, name: &str) {
+        self.names.insert(id, name.to_owned());
+    }
+
     /// The user's name of a value.
     #[must_use]
     pub fn name(&self, id: Id) -> Option<&str> {

@@ -7,6 +7,7 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::body::Body;
+use super::factors::gathered;
 use super::lattice::Cells;
 use super::plain::plain;
 use super::scaled::powers_in_products;
@@ -136,6 +137,14 @@ pub fn lower(
         _ => None,
     };
     let (graph, roots) = match plain {
+        Some((graph, roots)) => (Cow::Owned(graph), roots),
+        None => (graph, roots),
+    };
+    let gathered = match interface.precision {
+        Precision::Fast | Precision::Accurate => gathered(&graph, &roots),
+        _ => None,
+    };
+    let (graph, roots) = match gathered {
         Some((graph, roots)) => (Cow::Owned(graph), roots),
         None => (graph, roots),
     };

@@ -4,6 +4,7 @@ mod beyond;
 mod body;
 mod defined;
 mod exactness;
+mod factors;
 mod format;
 mod function;
 mod fused;

@@ -17,8 +17,13 @@ const CAREFUL: usize = 20;
 /// The same values in fewer operations, or nothing where there are no fewer.
 pub(super) fn plain(graph: &Graph, roots: &[Id]) -> Option<(Graph, Vec<Id>)> {
     let mut out = Graph::new();
+    let live = graph.reachable(roots);
+    let mut nodes = graph.ids().filter(|id| live[id.index()]);
+    let has_rests = nodes.any(|id| matches!(graph.node(id).op, Op::Apply(prim) if is_rest(prim)));
     let new = transcribe(graph, roots, &mut out, |out, node, args| {
-        rewritten(out, node, args)
+        let of_rest = has_rests.then(|| without_rest(out, node, args)).flatten();
+        of_rest
+            .or_else(|| rewritten(out, node, args))
             .or_else(|| of_constants(out, node, args))
             .unwrap_or_else(|| out.intern(node.op, node.ty, args))
     });
@@ -67,10 +72,6 @@ fn rewritten(g: &mut Graph, node: &Node, args: &[Id]) -> Option<Id> {
         (Prim::Add | Prim::Sub, &[x, y]) => {
             without_zero(g, prim, x, y).or_else(|| common_factor(g, prim, x, y))
         }
-        // rests of roundings are for those who keep bounds
-        (Prim::SumRest | Prim::MulAddRest | Prim::SineRest | Prim::CosineRest, _) => {
-            Some(g.real(0.0))
-        }
         (Prim::MulAdd, &[x, y, z]) => shorter_sum(g, x, y, z),
         (Prim::Hypot | Prim::Hypot3, parts) => {
             let squares: SmallVec<[Id; 3]> = parts.iter().map(|&x| g.mul(x, x)).collect();
@@ -85,9 +86,34 @@ fn rewritten(g: &mut Graph, node: &Node, args: &[Id]) -> Option<Id> {
             let r = g.apply(Prim::Max, &[r, least]);
             Some(g.div(x, r))
         }
-        (Prim::Select, &[_, between, there]) => middle(g, between, there),
+        (Prim::Select, &[_, between, there]) => {
+            middle(g, between, there).or_else(|| difference_of_squares(g, between, there))
+        }
         _ => None,
     }
+}
+
+/// What rounding took from an operation.
+fn is_rest(prim: Prim) -> bool {
+    matches!(
+        prim,
+        Prim::SumRest | Prim::MulAddRest | Prim::SineRest | Prim::CosineRest
+    )
+}
+
+/// Rests of roundings are for those who keep bounds: here they are 0, and so are their multiples. A 0 that stands in what has been
+/// integrated is counted as one of them.
+fn without_rest(g: &mut Graph, node: &Node, args: &[Id]) -> Option<Id> {
+    let Op::Apply(prim) = node.op else {
+        return None;
+    };
+    let is_zero = |&x: &Id| g.as_real(x) == Some(0.0);
+    let is_nothing = match (prim, args) {
+        (Prim::Mul, args) => args.iter().any(is_zero),
+        (Prim::Div, [x, _]) => is_zero(x),
+        _ => is_rest(prim),
+    };
+    (is_nothing && node.ty == Ty::Real).then(|| g.real(0.0))
 }
 
 /// Whether a constant is as short in single precision as its factors were.
@@ -235,6 +261,26 @@ fn common_factor(g: &mut Graph, prim: Prim, x: Id, y: Id) -> Option<Id> {
     }
     let inner = g.apply(prim, &[x, y]);
     Some(scaled(g, c, inner))
+}
+
+/// Two forms of a difference of squares, of which one is better beside its zeros: t² + 2c t = x² - c² with t = |x| - c. The second
+/// is the one that a person writes.
+fn difference_of_squares(g: &Graph, near: Id, far: Id) -> Option<Id> {
+    let [square, constant] = operands(g, far, Prim::Sub)?;
+    let [x, same] = operands(g, square, Prim::Mul)?;
+    let [first, second] = operands(g, near, Prim::Add)?;
+    let [t, other] = operands(g, first, Prim::Mul)?;
+    let (double, last) = constant_factor(g, second)?;
+    let [size, c] = operands(g, t, Prim::Sub)?;
+    let size = g.node(size);
+    let c = g.as_real(c)?;
+    let fits = x == same
+        && [other, last] == [t, t]
+        && size.op == Op::Apply(Prim::Abs)
+        && size.args[0] == x
+        && double.to_bits() == (2.0 * c).to_bits()
+        && g.as_real(constant)?.to_bits() == (c * c).to_bits();
+    fits.then_some(far)
 }
 
 /// Two forms of the middle of a line's stretch, of which one is chosen by what it rounds to:

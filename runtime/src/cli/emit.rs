@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use pullback_compiler::lower::Precision;
 use pullback_compiler::{Emission, EmitWhat, ParamsAs, Target};
 use pullback_runtime::AtomicFile;
-use pullback_runtime::validators::{Verdict, judge};
+use pullback_runtime::validators::{Verdict, judge, judge_in_browser};
 
 use super::failure::Failure;
 use super::source::Source;
@@ -249,7 +249,8 @@ fn command(arguments: &EmitArguments, text: &str) -> String {
 
 /// Has the code judged; fails where someone rejects it.
 fn check(code: &[u8], emission: &Emission, console: &Console) -> Result<(), Failure> {
-    let judgements = judge(code, emission.target, &emission.parts);
+    let mut judgements = judge(code, emission.target, &emission.parts);
+    judgements.extend(judge_in_browser(code, emission.target, &emission.parts));
     if judgements.is_empty() {
         console.note(&format!(
             "check: there is no judge here for `{}`",

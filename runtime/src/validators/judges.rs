@@ -7,8 +7,8 @@ pub(super) enum Input {
     Standard,
     /// As a file of this name, the last argument.
     File(&'static str),
-    /// From its standard input, with a folder of headers before the other arguments.
-    Headers(&'static str, &'static str),
+    /// From its standard input, with a folder of headers before the other arguments: paths and texts.
+    Headers(&'static [(&'static str, &'static str)]),
 }
 
 /// A program that reads code.
@@ -155,6 +155,33 @@ pub(super) const WGSL: &[Judge] = &[Judge {
     around: ("", ""),
     taken_for: "WGSL",
 }];
+const METAL_HEADERS: [(&str, &str); 2] = [
+    ("metal_stdlib", include_str!("metal_stdlib.h")),
+    ("simd/simd.h", ""),
+];
+/// Where the library of the DirectX shader compiler is among what packages have.
+pub(super) const DXC_LIBRARY: &str = "libdxcompiler_x86_64.so.3.7";
+/// A whole scene in MSL: attributes are not C++'s, and code that no person writes has names that nothing uses.
+pub(super) const MSL_SCENE: &[Judge] = &[Judge {
+    program: "clang++",
+    arguments: &[
+        "-x",
+        "c++",
+        "-std=c++14",
+        "-Wall",
+        "-Werror",
+        "-Wno-unknown-attributes",
+        "-Wno-unused-variable",
+        "-Wno-bitwise-instead-of-logical",
+        "-Xclang",
+        "-cl-single-precision-constant",
+        "-fsyntax-only",
+        "-",
+    ],
+    input: Input::Headers(&METAL_HEADERS),
+    around: ("", ""),
+    taken_for: "MSL as C++14, with a stand-in for Apple's header",
+}];
 /// The Metal language is C++14 with types and functions of its own, which a header of ours declares.
 pub(super) const MSL: &[Judge] = &[Judge {
     program: "clang++",
@@ -164,10 +191,13 @@ pub(super) const MSL: &[Judge] = &[Judge {
         "-std=c++14",
         "-Wall",
         "-Werror",
+        // a literal with a point is a float there
+        "-Xclang",
+        "-cl-single-precision-constant",
         "-fsyntax-only",
         "-",
     ],
-    input: Input::Headers("metal_stdlib", include_str!("metal_stdlib.h")),
+    input: Input::Headers(&METAL_HEADERS),
     around: ("", ""),
     taken_for: "MSL as C++14, with a stand-in for Apple's header",
 }];
@@ -181,11 +211,22 @@ pub(super) const C: &[Judge] = &[
     },
     Judge {
         program: "clang",
-        arguments: &C_FLAGS,
+        arguments: &CLANG_FLAGS,
         input: Input::Standard,
         around: ("", ""),
         taken_for: "C11, warnings as errors",
     },
+];
+/// Its warnings do not need the optimiser, as some of gcc's do.
+const CLANG_FLAGS: [&str; 8] = [
+    "-std=c11",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-fsyntax-only",
+    "-x",
+    "c",
+    "-",
 ];
 const C_FLAGS: [&str; 11] = [
     "-std=c11",

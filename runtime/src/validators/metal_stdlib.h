@@ -1,11 +1,18 @@
-// Stands in for Apple's <metal_stdlib>, as C++14: the types and functions of the Metal Shading Language Specification (sections 2
-// and 6) that emitted code uses, and nothing else of it. What a C++ compiler accepts with it is a checked part of the language.
+// Stands in for Apple's <metal_stdlib>, as C++14: the types, functions and keywords of the Metal Shading Language
+// Specification (sections 2, 4, 5 and 6) that emitted code uses, and nothing else of it. What a C++ compiler accepts with it
+// is a checked part of the language. Address spaces are not told apart; attributes are judged elsewhere.
 #pragma once
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
-#define constant static const
+// address spaces, which a C++ compiler need not tell apart, and kinds of entry points
+#define constant const
+#define device
+#define thread
+#define kernel
+#define vertex
+#define fragment
 // the C library has one of this name, too
 #define abs abs_of_metal
 
@@ -19,6 +26,43 @@ struct swizzle {
     operator To() const { return To(data[I]...); }
 };
 
+// components by several letters, which give a vector of so many
+#define TO2(V, T, N, a, b, name) swizzle<V##2, T, N, a, b> name;
+#define TO3(V, T, N, a, b, c, name) swizzle<V##3, T, N, a, b, c> name;
+#define OF2(V, T) \
+    TO2(V, T, 2, 0, 0, xx) TO2(V, T, 2, 0, 1, xy) TO2(V, T, 2, 1, 0, yx) TO2(V, T, 2, 1, 1, yy)
+#define OF3(V, T) \
+    TO2(V, T, 3, 0, 0, xx) TO2(V, T, 3, 0, 1, xy) TO2(V, T, 3, 0, 2, xz) TO2(V, T, 3, 1, 0, yx) \
+    TO2(V, T, 3, 1, 1, yy) TO2(V, T, 3, 1, 2, yz) TO2(V, T, 3, 2, 0, zx) TO2(V, T, 3, 2, 1, zy) \
+    TO2(V, T, 3, 2, 2, zz) TO3(V, T, 3, 0, 0, 0, xxx) TO3(V, T, 3, 0, 0, 1, xxy) TO3(V, T, 3, 0, 0, 2, xxz) \
+    TO3(V, T, 3, 0, 1, 0, xyx) TO3(V, T, 3, 0, 1, 1, xyy) TO3(V, T, 3, 0, 1, 2, xyz) TO3(V, T, 3, 0, 2, 0, xzx) \
+    TO3(V, T, 3, 0, 2, 1, xzy) TO3(V, T, 3, 0, 2, 2, xzz) TO3(V, T, 3, 1, 0, 0, yxx) TO3(V, T, 3, 1, 0, 1, yxy) \
+    TO3(V, T, 3, 1, 0, 2, yxz) TO3(V, T, 3, 1, 1, 0, yyx) TO3(V, T, 3, 1, 1, 1, yyy) TO3(V, T, 3, 1, 1, 2, yyz) \
+    TO3(V, T, 3, 1, 2, 0, yzx) TO3(V, T, 3, 1, 2, 1, yzy) TO3(V, T, 3, 1, 2, 2, yzz) TO3(V, T, 3, 2, 0, 0, zxx) \
+    TO3(V, T, 3, 2, 0, 1, zxy) TO3(V, T, 3, 2, 0, 2, zxz) TO3(V, T, 3, 2, 1, 0, zyx) TO3(V, T, 3, 2, 1, 1, zyy) \
+    TO3(V, T, 3, 2, 1, 2, zyz) TO3(V, T, 3, 2, 2, 0, zzx) TO3(V, T, 3, 2, 2, 1, zzy) TO3(V, T, 3, 2, 2, 2, zzz)
+#define OF4(V, T) \
+    TO2(V, T, 4, 0, 0, xx) TO2(V, T, 4, 0, 1, xy) TO2(V, T, 4, 0, 2, xz) TO2(V, T, 4, 0, 3, xw) \
+    TO2(V, T, 4, 1, 0, yx) TO2(V, T, 4, 1, 1, yy) TO2(V, T, 4, 1, 2, yz) TO2(V, T, 4, 1, 3, yw) \
+    TO2(V, T, 4, 2, 0, zx) TO2(V, T, 4, 2, 1, zy) TO2(V, T, 4, 2, 2, zz) TO2(V, T, 4, 2, 3, zw) \
+    TO2(V, T, 4, 3, 0, wx) TO2(V, T, 4, 3, 1, wy) TO2(V, T, 4, 3, 2, wz) TO2(V, T, 4, 3, 3, ww) \
+    TO3(V, T, 4, 0, 0, 0, xxx) TO3(V, T, 4, 0, 0, 1, xxy) TO3(V, T, 4, 0, 0, 2, xxz) TO3(V, T, 4, 0, 0, 3, xxw) \
+    TO3(V, T, 4, 0, 1, 0, xyx) TO3(V, T, 4, 0, 1, 1, xyy) TO3(V, T, 4, 0, 1, 2, xyz) TO3(V, T, 4, 0, 1, 3, xyw) \
+    TO3(V, T, 4, 0, 2, 0, xzx) TO3(V, T, 4, 0, 2, 1, xzy) TO3(V, T, 4, 0, 2, 2, xzz) TO3(V, T, 4, 0, 2, 3, xzw) \
+    TO3(V, T, 4, 0, 3, 0, xwx) TO3(V, T, 4, 0, 3, 1, xwy) TO3(V, T, 4, 0, 3, 2, xwz) TO3(V, T, 4, 0, 3, 3, xww) \
+    TO3(V, T, 4, 1, 0, 0, yxx) TO3(V, T, 4, 1, 0, 1, yxy) TO3(V, T, 4, 1, 0, 2, yxz) TO3(V, T, 4, 1, 0, 3, yxw) \
+    TO3(V, T, 4, 1, 1, 0, yyx) TO3(V, T, 4, 1, 1, 1, yyy) TO3(V, T, 4, 1, 1, 2, yyz) TO3(V, T, 4, 1, 1, 3, yyw) \
+    TO3(V, T, 4, 1, 2, 0, yzx) TO3(V, T, 4, 1, 2, 1, yzy) TO3(V, T, 4, 1, 2, 2, yzz) TO3(V, T, 4, 1, 2, 3, yzw) \
+    TO3(V, T, 4, 1, 3, 0, ywx) TO3(V, T, 4, 1, 3, 1, ywy) TO3(V, T, 4, 1, 3, 2, ywz) TO3(V, T, 4, 1, 3, 3, yww) \
+    TO3(V, T, 4, 2, 0, 0, zxx) TO3(V, T, 4, 2, 0, 1, zxy) TO3(V, T, 4, 2, 0, 2, zxz) TO3(V, T, 4, 2, 0, 3, zxw) \
+    TO3(V, T, 4, 2, 1, 0, zyx) TO3(V, T, 4, 2, 1, 1, zyy) TO3(V, T, 4, 2, 1, 2, zyz) TO3(V, T, 4, 2, 1, 3, zyw) \
+    TO3(V, T, 4, 2, 2, 0, zzx) TO3(V, T, 4, 2, 2, 1, zzy) TO3(V, T, 4, 2, 2, 2, zzz) TO3(V, T, 4, 2, 2, 3, zzw) \
+    TO3(V, T, 4, 2, 3, 0, zwx) TO3(V, T, 4, 2, 3, 1, zwy) TO3(V, T, 4, 2, 3, 2, zwz) TO3(V, T, 4, 2, 3, 3, zww) \
+    TO3(V, T, 4, 3, 0, 0, wxx) TO3(V, T, 4, 3, 0, 1, wxy) TO3(V, T, 4, 3, 0, 2, wxz) TO3(V, T, 4, 3, 0, 3, wxw) \
+    TO3(V, T, 4, 3, 1, 0, wyx) TO3(V, T, 4, 3, 1, 1, wyy) TO3(V, T, 4, 3, 1, 2, wyz) TO3(V, T, 4, 3, 1, 3, wyw) \
+    TO3(V, T, 4, 3, 2, 0, wzx) TO3(V, T, 4, 3, 2, 1, wzy) TO3(V, T, 4, 3, 2, 2, wzz) TO3(V, T, 4, 3, 2, 3, wzw) \
+    TO3(V, T, 4, 3, 3, 0, wwx) TO3(V, T, 4, 3, 3, 1, wwy) TO3(V, T, 4, 3, 3, 2, wwz) TO3(V, T, 4, 3, 3, 3, www)
+
 struct float2; struct float3; struct float4;
 struct int2; struct int3; struct int4;
 struct uint2; struct uint3; struct uint4;
@@ -28,10 +72,7 @@ struct float2 {
     union {
         float data[2];
         struct { float x, y; };
-        swizzle<float2, float, 2, 0, 0> xx;
-        swizzle<float2, float, 2, 0, 1> xy;
-        swizzle<float2, float, 2, 1, 0> yx;
-        swizzle<float2, float, 2, 1, 1> yy;
+        OF2(float, float)
     };
     float2() : data{} {}
     explicit float2(int2 v);
@@ -47,42 +88,7 @@ struct float3 {
     union {
         float data[3];
         struct { float x, y, z; };
-        swizzle<float2, float, 3, 0, 0> xx;
-        swizzle<float2, float, 3, 0, 1> xy;
-        swizzle<float2, float, 3, 0, 2> xz;
-        swizzle<float2, float, 3, 1, 0> yx;
-        swizzle<float2, float, 3, 1, 1> yy;
-        swizzle<float2, float, 3, 1, 2> yz;
-        swizzle<float2, float, 3, 2, 0> zx;
-        swizzle<float2, float, 3, 2, 1> zy;
-        swizzle<float2, float, 3, 2, 2> zz;
-        swizzle<float3, float, 3, 0, 0, 0> xxx;
-        swizzle<float3, float, 3, 0, 0, 1> xxy;
-        swizzle<float3, float, 3, 0, 0, 2> xxz;
-        swizzle<float3, float, 3, 0, 1, 0> xyx;
-        swizzle<float3, float, 3, 0, 1, 1> xyy;
-        swizzle<float3, float, 3, 0, 1, 2> xyz;
-        swizzle<float3, float, 3, 0, 2, 0> xzx;
-        swizzle<float3, float, 3, 0, 2, 1> xzy;
-        swizzle<float3, float, 3, 0, 2, 2> xzz;
-        swizzle<float3, float, 3, 1, 0, 0> yxx;
-        swizzle<float3, float, 3, 1, 0, 1> yxy;
-        swizzle<float3, float, 3, 1, 0, 2> yxz;
-        swizzle<float3, float, 3, 1, 1, 0> yyx;
-        swizzle<float3, float, 3, 1, 1, 1> yyy;
-        swizzle<float3, float, 3, 1, 1, 2> yyz;
-        swizzle<float3, float, 3, 1, 2, 0> yzx;
-        swizzle<float3, float, 3, 1, 2, 1> yzy;
-        swizzle<float3, float, 3, 1, 2, 2> yzz;
-        swizzle<float3, float, 3, 2, 0, 0> zxx;
-        swizzle<float3, float, 3, 2, 0, 1> zxy;
-        swizzle<float3, float, 3, 2, 0, 2> zxz;
-        swizzle<float3, float, 3, 2, 1, 0> zyx;
-        swizzle<float3, float, 3, 2, 1, 1> zyy;
-        swizzle<float3, float, 3, 2, 1, 2> zyz;
-        swizzle<float3, float, 3, 2, 2, 0> zzx;
-        swizzle<float3, float, 3, 2, 2, 1> zzy;
-        swizzle<float3, float, 3, 2, 2, 2> zzz;
+        OF3(float, float)
     };
     float3() : data{} {}
     explicit float3(int3 v);
@@ -100,86 +106,7 @@ struct float4 {
     union {
         float data[4];
         struct { float x, y, z, w; };
-        swizzle<float2, float, 4, 0, 0> xx;
-        swizzle<float2, float, 4, 0, 1> xy;
-        swizzle<float2, float, 4, 0, 2> xz;
-        swizzle<float2, float, 4, 0, 3> xw;
-        swizzle<float2, float, 4, 1, 0> yx;
-        swizzle<float2, float, 4, 1, 1> yy;
-        swizzle<float2, float, 4, 1, 2> yz;
-        swizzle<float2, float, 4, 1, 3> yw;
-        swizzle<float2, float, 4, 2, 0> zx;
-        swizzle<float2, float, 4, 2, 1> zy;
-        swizzle<float2, float, 4, 2, 2> zz;
-        swizzle<float2, float, 4, 2, 3> zw;
-        swizzle<float2, float, 4, 3, 0> wx;
-        swizzle<float2, float, 4, 3, 1> wy;
-        swizzle<float2, float, 4, 3, 2> wz;
-        swizzle<float2, float, 4, 3, 3> ww;
-        swizzle<float3, float, 4, 0, 0, 0> xxx;
-        swizzle<float3, float, 4, 0, 0, 1> xxy;
-        swizzle<float3, float, 4, 0, 0, 2> xxz;
-        swizzle<float3, float, 4, 0, 0, 3> xxw;
-        swizzle<float3, float, 4, 0, 1, 0> xyx;
-        swizzle<float3, float, 4, 0, 1, 1> xyy;
-        swizzle<float3, float, 4, 0, 1, 2> xyz;
-        swizzle<float3, float, 4, 0, 1, 3> xyw;
-        swizzle<float3, float, 4, 0, 2, 0> xzx;
-        swizzle<float3, float, 4, 0, 2, 1> xzy;
-        swizzle<float3, float, 4, 0, 2, 2> xzz;
-        swizzle<float3, float, 4, 0, 2, 3> xzw;
-        swizzle<float3, float, 4, 0, 3, 0> xwx;
-        swizzle<float3, float, 4, 0, 3, 1> xwy;
-        swizzle<float3, float, 4, 0, 3, 2> xwz;
-        swizzle<float3, float, 4, 0, 3, 3> xww;
-        swizzle<float3, float, 4, 1, 0, 0> yxx;
-        swizzle<float3, float, 4, 1, 0, 1> yxy;
-        swizzle<float3, float, 4, 1, 0, 2> yxz;
-        swizzle<float3, float, 4, 1, 0, 3> yxw;
-        swizzle<float3, float, 4, 1, 1, 0> yyx;
-        swizzle<float3, float, 4, 1, 1, 1> yyy;
-        swizzle<float3, float, 4, 1, 1, 2> yyz;
-        swizzle<float3, float, 4, 1, 1, 3> yyw;
-        swizzle<float3, float, 4, 1, 2, 0> yzx;
-        swizzle<float3, float, 4, 1, 2, 1> yzy;
-        swizzle<float3, float, 4, 1, 2, 2> yzz;
-        swizzle<float3, float, 4, 1, 2, 3> yzw;
-        swizzle<float3, float, 4, 1, 3, 0> ywx;
-        swizzle<float3, float, 4, 1, 3, 1> ywy;
-        swizzle<float3, float, 4, 1, 3, 2> ywz;
-        swizzle<float3, float, 4, 1, 3, 3> yww;
-        swizzle<float3, float, 4, 2, 0, 0> zxx;
-        swizzle<float3, float, 4, 2, 0, 1> zxy;
-        swizzle<float3, float, 4, 2, 0, 2> zxz;
-        swizzle<float3, float, 4, 2, 0, 3> zxw;
-        swizzle<float3, float, 4, 2, 1, 0> zyx;
-        swizzle<float3, float, 4, 2, 1, 1> zyy;
-        swizzle<float3, float, 4, 2, 1, 2> zyz;
-        swizzle<float3, float, 4, 2, 1, 3> zyw;
-        swizzle<float3, float, 4, 2, 2, 0> zzx;
-        swizzle<float3, float, 4, 2, 2, 1> zzy;
-        swizzle<float3, float, 4, 2, 2, 2> zzz;
-        swizzle<float3, float, 4, 2, 2, 3> zzw;
-        swizzle<float3, float, 4, 2, 3, 0> zwx;
-        swizzle<float3, float, 4, 2, 3, 1> zwy;
-        swizzle<float3, float, 4, 2, 3, 2> zwz;
-        swizzle<float3, float, 4, 2, 3, 3> zww;
-        swizzle<float3, float, 4, 3, 0, 0> wxx;
-        swizzle<float3, float, 4, 3, 0, 1> wxy;
-        swizzle<float3, float, 4, 3, 0, 2> wxz;
-        swizzle<float3, float, 4, 3, 0, 3> wxw;
-        swizzle<float3, float, 4, 3, 1, 0> wyx;
-        swizzle<float3, float, 4, 3, 1, 1> wyy;
-        swizzle<float3, float, 4, 3, 1, 2> wyz;
-        swizzle<float3, float, 4, 3, 1, 3> wyw;
-        swizzle<float3, float, 4, 3, 2, 0> wzx;
-        swizzle<float3, float, 4, 3, 2, 1> wzy;
-        swizzle<float3, float, 4, 3, 2, 2> wzz;
-        swizzle<float3, float, 4, 3, 2, 3> wzw;
-        swizzle<float3, float, 4, 3, 3, 0> wwx;
-        swizzle<float3, float, 4, 3, 3, 1> wwy;
-        swizzle<float3, float, 4, 3, 3, 2> wwz;
-        swizzle<float3, float, 4, 3, 3, 3> www;
+        OF4(float, float)
     };
     float4() : data{} {}
     explicit float4(int4 v);
@@ -206,6 +133,7 @@ struct int2 {
     union {
         int data[2];
         struct { int x, y; };
+        OF2(int, int)
     };
     int2() : data{} {}
     explicit int2(float2 v);
@@ -221,6 +149,7 @@ struct int3 {
     union {
         int data[3];
         struct { int x, y, z; };
+        OF3(int, int)
     };
     int3() : data{} {}
     explicit int3(float3 v);
@@ -238,6 +167,7 @@ struct int4 {
     union {
         int data[4];
         struct { int x, y, z, w; };
+        OF4(int, int)
     };
     int4() : data{} {}
     explicit int4(float4 v);
@@ -264,6 +194,7 @@ struct uint2 {
     union {
         uint data[2];
         struct { uint x, y; };
+        OF2(uint, uint)
     };
     uint2() : data{} {}
     explicit uint2(float2 v);
@@ -279,6 +210,7 @@ struct uint3 {
     union {
         uint data[3];
         struct { uint x, y, z; };
+        OF3(uint, uint)
     };
     uint3() : data{} {}
     explicit uint3(float3 v);
@@ -296,6 +228,7 @@ struct uint4 {
     union {
         uint data[4];
         struct { uint x, y, z, w; };
+        OF4(uint, uint)
     };
     uint4() : data{} {}
     explicit uint4(float4 v);
@@ -322,6 +255,7 @@ struct bool2 {
     union {
         bool data[2];
         struct { bool x, y; };
+        OF2(bool, bool)
     };
     bool2() : data{} {}
     explicit bool2(float2 v);
@@ -337,6 +271,7 @@ struct bool3 {
     union {
         bool data[3];
         struct { bool x, y, z; };
+        OF3(bool, bool)
     };
     bool3() : data{} {}
     explicit bool3(float3 v);
@@ -354,6 +289,7 @@ struct bool4 {
     union {
         bool data[4];
         struct { bool x, y, z, w; };
+        OF4(bool, bool)
     };
     bool4() : data{} {}
     explicit bool4(float4 v);
@@ -432,6 +368,11 @@ To as_type(From from) {
     return to;
 }
 
+template <typename To, typename V, typename T, int N, int... I>
+To as_type(const swizzle<V, T, N, I...>& from) {
+    return as_type<To>(V(from));
+}
+
 #define FLOAT1(name, of) inline float name(float x) { return of(x); }
 FLOAT1(cos, ::cosf) FLOAT1(cosh, ::coshf) FLOAT1(sin, ::sinf) FLOAT1(sinh, ::sinhf) FLOAT1(tan, ::tanf)
 FLOAT1(tanh, ::tanhf) FLOAT1(acos, ::acosf) FLOAT1(asin, ::asinf) FLOAT1(atan, ::atanf) FLOAT1(asinh, ::asinhf)
@@ -450,7 +391,10 @@ inline float clamp(float x, float lo, float hi) { return min(max(x, lo), hi); }
 inline float saturate(float x) { return clamp(x, 0.0f, 1.0f); }
 inline float mix(float a, float b, float t) { return a + (b - a) * t; }
 inline float step(float edge, float x) { return x < edge ? 0.0f : 1.0f; }
-inline float smoothstep(float lo, float hi, float x) { float t = saturate((x - lo) / (hi - lo)); return t * t * (3.0f - 2.0f * t); }
+inline float smoothstep(float lo, float hi, float x) {
+    float t = saturate((x - lo) / (hi - lo));
+    return t * t * (3.0f - 2.0f * t);
+}
 inline int abs(int x) { return x < 0 ? -x : x; }
 inline int min(int a, int b) { return a < b ? a : b; }
 inline int max(int a, int b) { return a > b ? a : b; }
@@ -463,18 +407,31 @@ inline bool isnan(float x) { return x != x; }
 inline bool isinf(float x) { return x == x && x - x != x - x; }
 
 #define FLOATS(N) \
-    OPERATOR(float##N, float, N, +) OPERATOR(float##N, float, N, -) OPERATOR(float##N, float, N, *) OPERATOR(float##N, float, N, /) \
+    OPERATOR(float##N, float, N, +) OPERATOR(float##N, float, N, -) \
+    OPERATOR(float##N, float, N, *) OPERATOR(float##N, float, N, /) \
     COMPARE(float##N, bool##N, N, <) COMPARE(float##N, bool##N, N, <=) COMPARE(float##N, bool##N, N, >) \
     COMPARE(float##N, bool##N, N, >=) COMPARE(float##N, bool##N, N, ==) COMPARE(float##N, bool##N, N, !=) \
     inline float##N operator-(float##N a) { EACH(float##N, N, -a[k]) } \
-    ONE(float##N, N, abs) ONE(float##N, N, floor) ONE(float##N, N, ceil) ONE(float##N, N, fract) ONE(float##N, N, sign) \
+    ONE(float##N, N, abs) ONE(float##N, N, floor) ONE(float##N, N, ceil) ONE(float##N, N, fract) \
+    ONE(float##N, N, sign) \
     ONE(float##N, N, sqrt) ONE(float##N, N, sin) ONE(float##N, N, cos) ONE(float##N, N, exp) ONE(float##N, N, log) \
-    ONE(float##N, N, trunc) ONE(float##N, N, rint) TWO(float##N, N, min) TWO(float##N, N, max) TWO(float##N, N, pow) \
-    inline float dot(float##N a, float##N b) { float sum = 0.0f; for (int k = 0; k < N; k++) sum += a[k] * b[k]; return sum; } \
+    ONE(float##N, N, trunc) ONE(float##N, N, rint) ONE(float##N, N, rsqrt) ONE(float##N, N, exp2) \
+    ONE(float##N, N, log2) TWO(float##N, N, min) TWO(float##N, N, max) TWO(float##N, N, pow) \
+    inline float dot(float##N a, float##N b) { \
+        float sum = 0.0f; \
+        for (int k = 0; k < N; k++) sum += a[k] * b[k]; \
+        return sum; \
+    } \
     inline float length(float##N a) { return sqrt(dot(a, a)); } \
     inline float distance(float##N a, float##N b) { return length(a - b); } \
     inline float##N normalize(float##N a) { return a / length(a); } \
     inline float##N clamp(float##N x, float##N lo, float##N hi) { return min(max(x, lo), hi); } \
+    inline float##N clamp(float##N x, float lo, float hi) { return clamp(x, float##N(lo), float##N(hi)); } \
+    inline float##N min(float##N a, float b) { return min(a, float##N(b)); } \
+    inline float##N max(float##N a, float b) { return max(a, float##N(b)); } \
+    inline float##N smoothstep(float##N lo, float##N hi, float##N x) { \
+        EACH(float##N, N, smoothstep(lo[k], hi[k], x[k])) \
+    } \
     inline float##N mix(float##N a, float##N b, float##N t) { return a + (b - a) * t; } \
     inline float##N mix(float##N a, float##N b, float t) { return a + (b - a) * t; } \
     inline float##N fma(float##N a, float##N b, float##N c) { EACH(float##N, N, fma(a[k], b[k], c[k])) } \
@@ -489,14 +446,20 @@ FLOATS(2) FLOATS(3) FLOATS(4)
     inline V operator-(V a) { EACH(V, N, -a[k]) } \
     inline V operator~(V a) { EACH(V, N, ~a[k]) } \
     inline V select(V a, V b, bool##N c) { EACH(V, N, c[k] ? b[k] : a[k]) } \
-    OPERATOR(V, T, N, +) OPERATOR(V, T, N, -) OPERATOR(V, T, N, *) OPERATOR(V, T, N, &) OPERATOR(V, T, N, |) OPERATOR(V, T, N, ^) \
+    OPERATOR(V, T, N, +) OPERATOR(V, T, N, -) OPERATOR(V, T, N, *) OPERATOR(V, T, N, &) \
+    OPERATOR(V, T, N, |) OPERATOR(V, T, N, ^) \
     OPERATOR(V, T, N, <<) OPERATOR(V, T, N, >>)
 WHOLES(int2, int, 2) WHOLES(int3, int, 3) WHOLES(int4, int, 4)
 WHOLES(uint2, uint, 2) WHOLES(uint3, uint, 3) WHOLES(uint4, uint, 4)
+#define TRUTHS(N) COMPARE(bool##N, bool##N, N, ==) COMPARE(bool##N, bool##N, N, !=)
+TRUTHS(2) TRUTHS(3) TRUTHS(4)
 inline float3 cross(float3 a, float3 b) {
     return float3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 inline float select(float a, float b, bool c) { return c ? b : a; }
+inline int select(int a, int b, bool c) { return c ? b : a; }
+inline uint select(uint a, uint b, bool c) { return c ? b : a; }
+inline bool select(bool a, bool b, bool c) { return c ? b : a; }
 
 #undef EACH
 #undef OPERATOR
@@ -506,5 +469,31 @@ inline float select(float a, float b, bool c) { return c ? b : a; }
 #undef FLOAT1
 #undef FLOATS
 #undef WHOLES
+#undef TRUTHS
+#undef TO2
+#undef TO3
+#undef OF2
+#undef OF3
+#undef OF4
+
+// three numbers without a fourth as padding, which turn into a vector where one is wanted
+struct packed_float3 : float3 {
+    packed_float3() = default;
+    packed_float3(float3 v) : float3(v) {}
+    packed_float3(float a, float b, float c) : float3(a, b, c) {}
+};
+
+inline uint pack_float_to_unorm4x8(float4 v) {
+    uint out = 0u;
+    for (int k = 0; k < 4; k++) out |= uint(rint(clamp(v[k], 0.0f, 1.0f) * 255.0f)) << (8 * k);
+    return out;
+}
 
 }  // namespace metal
+
+// types of the language itself, which are in no namespace
+using metal::as_type;
+using metal::float2; using metal::float3; using metal::float4;
+using metal::int2; using metal::int3; using metal::int4;
+using metal::uint2; using metal::uint3; using metal::uint4;
+using metal::bool2; using metal::bool3; using metal::bool4;

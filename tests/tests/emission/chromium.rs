@@ -4,10 +4,10 @@
 use std::time::Instant;
 
 use pullback_compiler::{Target, What};
+use pullback_runtime::validators::browser::{Silence, Site, ask, browser};
 use pullback_tests::accuracy::error::Format;
 use pullback_tests::accuracy::formulas::{MOST, gallery};
 
-use crate::browser::{Silence, Site, ask, browser};
 use crate::jobs::Job;
 
 const PAGE: &str = include_str!("chromium.html");

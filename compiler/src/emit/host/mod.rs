@@ -57,6 +57,8 @@ pub(super) struct Hosted<'a> {
     parts: Vec<Part>,
     built: BuiltModule,
     printed: Printed,
+    /// Whether the module itself holds the parameters, as nodes of three.js.
+    holds_parameters: bool,
 }
 
 /// The file for a host.
@@ -79,6 +81,12 @@ pub(super) fn emitted(
         emission.parts = vec![of.part()];
         kind = Some(of);
     }
+    // a uniform of WGSL would take a binding that is three.js's to give
+    let is_tsl = emission.target == Target::Tsl && emission.params == ParamsAs::Uniform;
+    if is_tsl {
+        emission.params = ParamsAs::Arguments;
+    }
+    let holds_parameters = is_tsl && !program.params().is_empty();
     let values = (emission.params == ParamsAs::Constants).then(|| program.params());
     let parts: Vec<Part> = emission
         .parts
@@ -94,6 +102,7 @@ pub(super) fn emitted(
         parts,
         built,
         printed,
+        holds_parameters,
     };
     let text = match (hosted.emission.target, kind) {
         (Target::Shadertoy, Some(kind)) => hosted.shadertoy(kind),

@@ -13,6 +13,38 @@ impl Hosted<'_> {
         )
     }
 
+    /// The parameters as uniforms of three.js, and the functions that take the rest.
+    fn parameter_nodes(&self, imports: &mut Vec<&str>) -> String {
+        imports.push("uniform");
+        let is_used = |name: &String| {
+            let mut arguments = self.built.functions.iter().flat_map(|f| &f.arguments);
+            arguments.any(|(used, _)| used == name)
+        };
+        let nodes: Vec<String> = self
+            .program
+            .params()
+            .iter()
+            .map(|param| (self.emission.name_of(&param.name), param.default))
+            .filter(|(name, _)| is_used(name))
+            .map(|(name, default)| format!("{name}: uniform({default:?})"))
+            .collect();
+        let mut out = format!(
+            "// uniforms: parameters.NAME.value = NUMBER sets one\nexport const parameters = {{ {} }};\n\n",
+            nodes.join(", ")
+        );
+        for function in &self.built.functions {
+            let printed = self.printed.functions.iter();
+            let mut named = printed.filter(|f| f.handle == function.handle);
+            if let Some(function) = named.next() {
+                let name = &function.name;
+                out.push_str(&format!(
+                    "export const {name} = (inputs) => {name}_node({{ ...parameters, ...inputs }});\n"
+                ));
+            }
+        }
+        out
+    }
+
     /// Node functions: each with those that it calls.
     pub(super) fn tsl(&self) -> String {
         let mut out = self.head();
@@ -48,13 +80,20 @@ impl Hosted<'_> {
             } else {
                 format!(", [{}]", includes.join(", "))
             };
-            let word = if is_asked { "export const" } else { "const" };
+            let (word, name) = match (is_asked, self.holds_parameters) {
+                (true, true) => ("const", format!("{}_node", function.name)),
+                (true, false) => ("export const", function.name.clone()),
+                _ => ("const", function.name.clone()),
+            };
             body.push_str(&format!(
-                "{word} {} = wgslFn(`\n{}\n`{list});\n\n",
-                function.name,
+                "{word} {name} = wgslFn(`\n{}\n`{list});\n\n",
                 function.text.trim_end()
             ));
         }
+        if self.holds_parameters {
+            body.push_str(&self.parameter_nodes(&mut imports));
+        }
+        imports.sort_unstable();
         out.push_str(&format!(
             "\nimport {{ {} }} from 'three/tsl';\n\n",
             imports.join(", ")

@@ -32,11 +32,25 @@ fn bracket(line: &str, room: usize) -> Option<usize> {
     all.find(|at| (room / 4..room).contains(at))
 }
 
-/// Where to break: the last of the outermost places among those that fit, behind a comma or before an operator.
+/// How loosely an operator binds; breaks are before the loosest.
+fn looseness(operator: &str) -> Option<u8> {
+    Some(match operator {
+        "?" | ":" => 1,
+        "||" => 2,
+        "&&" => 3,
+        "|" | "^" | "&" => 4,
+        "+" | "-" => 5,
+        "*" | "/" | "%" => 6,
+        _ => return None,
+    })
+}
+
+/// Where to break: behind a comma or before an operator. Of the places that fit the outermost, of those the one before the loosest
+/// operator, of those the last.
 fn best_break(line: &str, room: usize) -> Option<usize> {
     let bytes = line.as_bytes();
     let mut depth = 0_usize;
-    let mut best: Option<(usize, usize)> = None;
+    let mut best: Option<((usize, u8), usize)> = None;
     for (at, &byte) in bytes.iter().enumerate() {
         match byte {
             b'(' | b'[' | b'{' => depth += 1,
@@ -44,17 +58,17 @@ fn best_break(line: &str, room: usize) -> Option<usize> {
             b' ' if at > 0 => {
                 let rest = &line[at + 1..];
                 let word = rest.split(' ').next().unwrap_or("");
-                let begins = matches!(
-                    word,
-                    "+" | "-" | "*" | "/" | "%" | "&&" | "||" | "?" | ":" | "|" | "^" | "&"
-                );
-                let place = bytes[at - 1] == b',' || begins;
+                let place = match bytes[at - 1] {
+                    b',' => Some(0),
+                    _ => looseness(word),
+                };
                 // not right at the begin, where little would stand on the line
-                if place && at <= room && at > room / 4 {
-                    let is_better = best.is_none_or(|(d, _)| depth <= d);
-                    if is_better {
-                        best = Some((depth, at));
-                    }
+                if let Some(loose) = place
+                    && at <= room
+                    && at > room / 4
+                    && best.is_none_or(|(known, _)| (depth, loose) <= known)
+                {
+                    best = Some(((depth, loose), at));
                 }
             }
             _ => {}
@@ -78,8 +92,9 @@ pub(in crate::emit) fn comment(text: &str, mark: &str) -> String {
             if column > 0 && mark.len() + 1 + column + length > WIDTH {
                 out.push('\n');
                 out.push_str(mark);
-                out.push_str("   ");
-                column = 3;
+                out.push_str(&lead);
+                out.push_str("    ");
+                column = lead.len() + 4;
             }
             if column == 0 {
                 out.push_str(&lead);

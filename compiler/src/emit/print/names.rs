@@ -121,6 +121,37 @@ fn clean(wanted: &str) -> String {
     }
 }
 
+/// The name of a square.
+fn squared(of: &str) -> String {
+    let gap = if of.ends_with(|c: char| c.is_ascii_digit()) {
+        "_"
+    } else {
+        ""
+    };
+    format!("{of}{gap}2")
+}
+
+/// What a function gives, where its own name would be one of the language with a number behind it, as in `sqrt2`.
+fn noun(function: &str) -> &str {
+    match function {
+        "sqrt" => "root",
+        "exp" => "exponential",
+        "log" => "logarithm",
+        "sin" => "sine",
+        "cos" => "cosine",
+        "floor" => "whole",
+        "max" => "larger",
+        "min" => "smaller",
+        "clamp" => "clamped",
+        "abs" => "size",
+        "fma" => "sum",
+        "mul" => "product",
+        "div" => "quotient",
+        "hypot" | "hypot3" => "norm",
+        other => other,
+    }
+}
+
 /// A name for a value that the user gave none: after what it is, where that is short.
 pub(super) fn described(
     module: &Module,
@@ -153,15 +184,7 @@ pub(super) fn described(
             op: BinaryOperator::Multiply,
             left,
             right,
-        } if left == right => {
-            let of = short(left)?;
-            let gap = if of.ends_with(|c: char| c.is_ascii_digit()) {
-                "_"
-            } else {
-                ""
-            };
-            format!("{of}{gap}2")
-        }
+        } if left == right => squared(&short(left)?),
         Expression::Binary {
             op: BinaryOperator::Multiply,
             left,
@@ -184,7 +207,7 @@ pub(super) fn described(
             let word = format!("{fun:?}").to_lowercase();
             match (arg1, short(arg)) {
                 (None, Some(of)) => format!("{word}_{of}"),
-                _ => word,
+                _ => noun(&word).to_owned(),
             }
         }
         Expression::CallResult(callee) => {
@@ -193,10 +216,15 @@ pub(super) fn described(
                 .strip_prefix("real_")
                 .or_else(|| called.strip_prefix("complex_"))
                 .unwrap_or(called);
-            let first = plan.survey.arguments.get(&handle)?.first();
-            match first.and_then(|&a| short(a)) {
-                Some(of) => format!("{word}_{of}"),
-                None => word.to_owned(),
+            let arguments = plan.survey.arguments.get(&handle)?;
+            let of = |k: usize| arguments.get(k).and_then(|&a| short(a));
+            match (word, of(0), of(1)) {
+                ("mul", Some(a), Some(b)) => format!("{a}_{b}"),
+                ("div", Some(a), Some(b)) => format!("{a}_per_{b}"),
+                ("square", Some(a), _) => squared(&a),
+                ("mul" | "div", ..) => noun(word).to_owned(),
+                (_, Some(of), _) => format!("{word}_{of}"),
+                _ => noun(word).to_owned(),
             }
         }
         _ => return None,

@@ -1,12 +1,13 @@
 extends Node
 # Draws with each shader of the page, and hands the pictures back to it.
 
-var side: int = JavaScriptBridge.eval("side")
+var side: int
 
 func _ready() -> void:
 	var count: int = JavaScriptBridge.eval("jobs.length")
 	for k in count:
 		JavaScriptBridge.eval("current = %d" % k)
+		side = JavaScriptBridge.eval("sides[%d]" % k)
 		await judge(k, str(JavaScriptBridge.eval("jobs[%d]" % k)))
 	JavaScriptBridge.eval("finished()")
 

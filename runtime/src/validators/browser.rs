@@ -18,13 +18,14 @@ const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chro
 /// Why there is no answer.
 #[derive(Clone, Debug)]
 pub enum Silence {
-    /// Something is not installed, or cannot run here: the test says so, and is skipped.
+    /// Something is not installed, or cannot run here.
     Missing(String),
     /// Something went wrong.
     Failed(String),
 }
 
 /// The program's name, where it is installed.
+#[must_use]
 pub fn browser() -> Option<&'static str> {
     let is_there = |name: &&str| {
         let version = Command::new(name).arg("--version").output();
@@ -33,7 +34,8 @@ pub fn browser() -> Option<&'static str> {
     NAMES.into_iter().find(is_there)
 }
 
-/// Where the script `pullback` keeps what packages have for the tests: `PULLBACK_JUDGES`, or a folder of the user's cache.
+/// Where the script `pullback` keeps judges that come in packages: `PULLBACK_JUDGES`, or a folder of the user's cache.
+#[must_use]
 pub fn judges() -> Option<PathBuf> {
     if let Some(folder) = std::env::var_os("PULLBACK_JUDGES") {
         return Some(PathBuf::from(folder));
@@ -46,11 +48,25 @@ pub fn judges() -> Option<PathBuf> {
 /// A page and the files that it asks for, by their paths.
 #[derive(Debug, Default)]
 pub struct Site {
+    /// The page itself.
     pub page: String,
+    /// Files by their paths.
     pub files: HashMap<String, Vec<u8>>,
 }
 
-/// A process that ends with the test.
+/// A text as a literal of JavaScript between backquotes. Backquotes in it become plain quotes, and what would end a script is set
+/// apart: in shaders both stand in comments only.
+#[must_use]
+pub fn literal(text: &str) -> String {
+    let text = text
+        .replace('\\', "\\\\")
+        .replace('`', "'")
+        .replace("${", "$ {")
+        .replace("</", "< /");
+    format!("`{text}`")
+}
+
+/// A process that ends with its owner.
 struct Running(Child);
 
 impl Drop for Running {
@@ -61,6 +77,9 @@ impl Drop for Running {
 }
 
 /// Shows a page to the browser. The answer is what the page sends behind a line `done`.
+///
+/// # Errors
+/// There is no browser, it has not what the page needs, or it does not answer.
 pub fn ask(site: &Site) -> Result<String, Silence> {
     let failed = |problem: std::io::Error| Silence::Failed(problem.to_string());
     let missing = |what: &str| Silence::Missing(what.to_owned());
