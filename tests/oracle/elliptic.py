@@ -176,10 +176,10 @@ def curves(rng):
         yield f"jacobi_{kind}_curve_both", f"f(z) = diff(jacobi_{kind}(z, z/4 + 1/2), z)", both, [], disc(2, 8, rng)
     for name, f in (("elliptic_k", mp.ellipk), ("elliptic_e", mp.ellipe)):
         yield name + "_curve", f"f(z) = diff({name}(z), z)", f, [], plane
-        yield name + "_curve_real", f"f(x) = diff({name}(x), x)", f, [], [x for x in axis if x.real < 1]
+        yield name + "_curve_real", f"f(x) = diff({name}(x), x)", f, [], [x for x in axis if x.real < 1] + [-3, -0.25, 0.75]
     some = disc(2, 6, rng) + [complex(x) for x in (-1, 0, 1, 0.25)]
     right = [z + 2.75 for z in disc(2, 6, rng)] + [complex(x) for x in (0.25, 1, 4)]
-    line = [complex(x) for x in (-2.625, -0.3125, 1e-3, 0.5, 1, 2, 3.75)]
+    line = [complex(x) for x in (-2.625, -0.3125, 1e-3, 0.5, 1, 2, 3.75, 0.125, 1.5, 2.5, 5, 7)]
     for name, x in (("", 0.5), ("_complex", 0.25 + 0.5j), ("_left", -3), ("_turned", -0.5 + 2j)):
         by_a = mp.hyp2f1
         by_c = lambda c, a, b, x: mp.hyp2f1(a, b, c, x)
@@ -198,12 +198,12 @@ def curves(rng):
     for k in (1, 2, 3, 4):
         theta = lambda q, z, k=k: mp.jtheta(k, z, q)
         yield f"jacobi_theta{k}_curve", f"f(z) = diff(jacobi_theta{k}({{0}}, z), z)", theta, [0.3 + 0.2j], inside
-    half = [complex(x, y) for x, y in ((0, 1), (0.5, 0.875), (0.25, 1.5), (-0.4375, 0.625), (1.25, 0.5), (-0.6875, 0.25), (0.1875, 2.5))]
+    half = [complex(x, y) for x, y in ((0, 1), (0.5, 0.875), (0.25, 1.5), (-0.4375, 0.625), (1.25, 0.5), (-0.6875, 0.25), (0.1875, 2.5), (0.0625, 1.75), (-0.3125, 0.9375), (0.4375, 0.75))]
     forms = (("eisenstein_e2", eisenstein_e2), ("eisenstein_e4", eisenstein_e4), ("eisenstein_e6", eisenstein_e6), ("klein_j", klein), ("dedekind_eta", dedekind), ("modular_lambda", modular_lambda))
     for name, form in forms:
         yield name + "_curve", f"f(z) = diff({name}(z), z)", form, [], half
-    yield "hurwitz_zeta_shift_curve", "f(x) = diff(hurwitz_zeta({0}, x), x)", lambda a, s: mp.zeta(s, mp.re(a)), [1.5], [complex(x) for x in (0.1, 0.7, 1.5, 10)] + axis[3:6]
-    for n in (1, 5, 12):
+    yield "hurwitz_zeta_shift_curve", "f(x) = diff(hurwitz_zeta({0}, x), x)", lambda a, s: mp.zeta(s, mp.re(a)), [1.5], [complex(x) for x in (0.1, 0.7, 1.5, 10, 3, 30)] + axis[3:6]
+    for n in (2, 5, 12):
         for word, f in (("gegenbauer_c", gegenbauer(n)), ("laguerre_l", laguerre(n))):
             yield f"{word}_curve_{n}", f"f(z) = diff({word}({n}, z, {{0}}), z)", f, [0.375 + 0.25j], some
             yield f"{word}_curve_{n}_real", f"f(x) = diff({word}({n}, x, {{0}}), x)", f, [0.625], line

@@ -3,7 +3,7 @@
 use super::defined::{named, order, undefined};
 use super::derivative::{call, plus, scaled, square};
 use super::{Row, Typing};
-use crate::ir::{Graph, Id, Prim};
+use crate::ir::{Graph, Id, Prim, Ty};
 
 pub fn rows() -> Vec<Row> {
     let mut rows = Vec::new();
@@ -45,8 +45,8 @@ fn thetas() -> [Row; 4] {
     ]
 }
 
-/// The next derivative by z; by q that by the heat equation ∂²θ/∂z² = -4 q ∂θ/∂q (DLMF 20.13.1), and at q = 0, where θ₁ and θ₂ have
-/// none, the first term.
+/// The next derivative by z; by q that by the heat equation ∂²θ/∂z² = -4 q ∂θ/∂q (DLMF 20.13.1), and of θ₃ and θ₄ next to q = 0 by the
+/// sum itself.
 fn theta(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     let prim = member(g, value);
     let n = order(g, value);
@@ -56,12 +56,64 @@ fn theta(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     let curve = g.apply(prim.with_order(n + 2), args);
     let below = scaled(g, -4.0, args[1]);
     let slope = g.div(curve, below);
-    let Some(first) = first_term(g, prim, args[0], n) else {
-        return slope;
+    let sign = match prim {
+        Prim::JacobiTheta3(_) => 1.0,
+        Prim::JacobiTheta4(_) => -1.0,
+        _ => return slope,
     };
-    let zero = g.real(0.0);
-    let vanishes = g.apply(Prim::Equal, &[args[1], zero]);
-    g.apply(Prim::Select, &[vanishes, first, slope])
+    let near = is_near_zero(g, args);
+    let sum = sum_by_nome(g, args, sign, n);
+    g.apply(Prim::Select, &[near, sum, slope])
+}
+
+/// Whether |q| < 1/16 and |q|³ e^(2 |im z|) < 1: five terms of the sum are enough then, and with more than the first one that counts the
+/// heat equation loses no digits of a second derivative elsewhere.
+fn is_near_zero(g: &mut Graph, args: &[Id]) -> Id {
+    let size = call(g, Prim::Abs, args[1]);
+    let grown = if g.ty(args[0]) == Ty::Complex {
+        let height = call(g, Prim::Im, args[0]);
+        let height = call(g, Prim::Abs, height);
+        let power = scaled(g, 2.0 / 3.0, height);
+        let growth = call(g, Prim::Exp, power);
+        g.mul(size, growth)
+    } else {
+        size
+    };
+    let sixteen = scaled(g, 16.0, size);
+    let most = g.apply(Prim::Max, &[sixteen, grown]);
+    let one = g.real(1.0);
+    g.apply(Prim::Less, &[most, one])
+}
+
+/// The n-th derivative by z, n ≤ 2, of Σ 2 (±1)ʲ j² q^(j² - 1) cos 2jz, j from 1 to 5, which is that of θ₃ or θ₄ by q (DLMF 20.2.3-4).
+fn sum_by_nome(g: &mut Graph, args: &[Id], sign: f64, n: u8) -> Id {
+    let twice = scaled(g, 2.0, args[0]);
+    let cosine = call(g, Prim::Cos, twice);
+    let double = scaled(g, 2.0, cosine);
+    // of the multiple angles before: cos 0 and cos 2z, or sin 0 and sin 2z
+    let (mut before, mut wave) = if n == 1 {
+        (g.real(0.0), call(g, Prim::Sin, twice))
+    } else {
+        (g.real(1.0), cosine)
+    };
+    let turned = if n == 0 { 1.0 } else { -1.0 };
+    let mut sum = None;
+    for j in 1..=5 {
+        let order = f64::from(j);
+        let factor = 2.0 * sign.powi(j) * turned * order.powi(2) * (2.0 * order).powi(n.into());
+        let product = if j == 1 {
+            wave
+        } else {
+            let power = g.apply(Prim::PowInt(j * j - 1), &[args[1]]);
+            g.mul(power, wave)
+        };
+        let term = scaled(g, factor, product);
+        sum = Some(sum.map_or(term, |sum| g.add(sum, term)));
+        let next = g.mul(double, wave);
+        let next = g.sub(next, before);
+        (before, wave) = (wave, next);
+    }
+    sum.unwrap_or_else(|| undefined(g))
 }
 
 fn member(g: &Graph, value: Id) -> Prim {
@@ -69,30 +121,6 @@ fn member(g: &Graph, value: Id) -> Prim {
         crate::ir::Op::Apply(prim) => prim,
         _ => Prim::JacobiTheta3(0),
     }
-}
-
-/// The n-th derivative by z of ±2 cos 2z; `None` of θ₁ and θ₂.
-fn first_term(g: &mut Graph, prim: Prim, z: Id, n: u8) -> Option<Id> {
-    let sign = match prim {
-        Prim::JacobiTheta3(_) => 1.0,
-        Prim::JacobiTheta4(_) => -1.0,
-        _ => return None,
-    };
-    let twice = scaled(g, 2.0, z);
-    Some(match n {
-        0 => {
-            let wave = call(g, Prim::Cos, twice);
-            scaled(g, 2.0 * sign, wave)
-        }
-        1 => {
-            let wave = call(g, Prim::Sin, twice);
-            scaled(g, -4.0 * sign, wave)
-        }
-        _ => {
-            let wave = call(g, Prim::Cos, twice);
-            scaled(g, -8.0 * sign, wave)
-        }
-    })
 }
 
 fn jacobi() -> [Row; 3] {
