@@ -19,6 +19,9 @@ def tables():
     yield "dilogarithm.pull", "B(2j)/(2j + 1)!", [bernoulli(j) / mp.factorial(2 * j + 1) for j in range(1, 13)]
     yield "gamma.pull", "(-1)^k (ζ(k) - 1)/k", [(-1) ** k * (mp.zeta(k) - 1) / k for k in range(2, 37)]
     yield "gamma.pull", "1 - γ", [1 - mp.euler]
+    # of x^(2j) in 2 csc² x + x (csc² x)′ - 2/3 - (4/15) sin² x, from csc² x = Σ (2k - 1) 2^(2k) |B(2k)|/(2k)! x^(2k - 2)
+    cosecant = lambda k: mp.mpf(4) ** k * abs(mp.bernoulli(2 * k)) / mp.factorial(2 * k - 2)
+    yield "lattice.pull", "series of R", [cosecant(j + 1) + mp.mpf(-1) ** j * 2 * mp.mpf(4) ** j / (15 * mp.factorial(2 * j)) for j in range(2, 21)]
     yield "airy.pull", "Ai(0), -Ai′(0), Bi(0), Bi′(0)", [mp.airyai(0), -mp.airyai(0, derivative=1), mp.airybi(0), mp.airybi(0, derivative=1)]
 
 

@@ -24,6 +24,10 @@ pub mod special;
 #[cfg(feature = "gpu")]
 pub mod special_batches;
 #[cfg(feature = "gpu")]
+pub mod special_cost;
+#[cfg(feature = "gpu")]
+pub mod special_record;
+#[cfg(feature = "gpu")]
 pub mod stability;
 #[cfg(feature = "gpu")]
 pub mod stills;

@@ -8,17 +8,6 @@ pub const MOST_DOUBLE: f64 = 32.0;
 /// In pairs: 2⁻⁴² of the norm.
 pub const MOST_EXTENDED: f64 = 8.0;
 
-/// Which functions are measured, and on what.
-#[derive(Clone, Debug, clap::Args)]
-pub struct SpecialOptions {
-    /// `auto`, `gpu`, `software`, or part of an adapter's name
-    #[arg(long)]
-    pub adapter: Option<String>,
-    /// Only functions whose name contains this
-    #[arg(long, default_value = "")]
-    pub only: String,
-}
-
 /// A formula f(z) whose value is one function.
 #[derive(Clone, Debug)]
 pub struct SpecialFormula {

@@ -1,7 +1,7 @@
 //! Tables of special functions that share a shader, so that a device compiles each function once in a tier.
 
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use pullback_compiler::formula::Formula;
 use pullback_compiler::lower::Precision;
@@ -131,7 +131,26 @@ pub fn batches(tables: Vec<Table>) -> Vec<Batch> {
     all.into_iter().map(batch).collect()
 }
 
+impl std::fmt::Display for Judged {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (name, tier) = (self.name, self.precision.name());
+        let (value, slope) = (self.factors.value, self.factors.derivative);
+        write!(
+            f,
+            "{name}, {tier}: {value:.2}, {slope:.2} of {}, {:.1} s",
+            self.most, self.seconds
+        )?;
+        f.write_str(if self.problem.is_some() { " WRONG" } else { "" })
+    }
+}
+
 impl Batch {
+    /// The names of its tables.
+    #[must_use]
+    pub fn names(&self) -> Vec<&'static str> {
+        self.tables.iter().map(|(table, _)| table.name).collect()
+    }
+
     /// The length of its shader's text in a tier, which tells how long a driver compiles.
     #[must_use]
     pub fn size(&self, precision: Precision) -> usize {
@@ -175,20 +194,6 @@ impl Batch {
                 most,
                 seconds,
             }
-        };
-        self.tables.iter().map(each).collect()
-    }
-
-    /// What is told of tables that were not reached.
-    #[must_use]
-    pub fn unreached(&self, precision: Precision, after: Duration) -> Vec<Judged> {
-        let each = |(table, _): &(Table, Vec<f64>)| Judged {
-            name: table.name,
-            precision,
-            factors: Factors::default(),
-            most: most(precision),
-            problem: Some(format!("not begun after {} s", after.as_secs())),
-            seconds: 0.0,
         };
         self.tables.iter().map(each).collect()
     }

@@ -13,8 +13,10 @@ use pullback_compiler::{EmitWhat, Target, compile};
 use pullback_runtime::executor::{Arithmetic, Contraction};
 use pullback_tests::accuracy::evaluators::{Machine, suite_gpu};
 use pullback_tests::accuracy::formulas::{MOST, Table, special};
+use pullback_tests::corpus::{read, root};
 use pullback_tests::special::{MOST_DOUBLE, MOST_EXTENDED, functions_of, special_formulas};
 use pullback_tests::special_batches::{Place, batches};
+use pullback_tests::special_cost::{between, rows};
 
 /// Violations of K ≤ `most` on a machine; prints what was measured.
 fn violations(tables: &[Table], machine: &Machine, most: f64) -> Vec<String> {
@@ -220,4 +222,35 @@ fn a_module_carries_only_what_its_function_needs() {
             assert!(called, "{name} in {}", formula.text);
         }
     }
+}
+
+/// The table of docs/special.md has every function with the size that its module has now, no frame of 100 ms and a median time to WGSL
+/// below 3 ms.
+#[test]
+fn the_table_of_costs_is_current() {
+    let page = read(&root().join("docs/special.md"));
+    let begin = "<!-- cost of special functions, by the command above -->\n";
+    let [_, table, _] = between(&page, [begin, "<!-- end of the cost -->\n"]).expect("a table");
+    let rows = rows(table);
+    let mut compiled = Vec::new();
+    for formula in special_formulas() {
+        let name = formula.name;
+        let row = rows
+            .get(name)
+            .unwrap_or_else(|| panic!("{name} has no row"));
+        let number = |k: usize| row[k].parse::<f64>().expect(name);
+        let program = compile(&formula.text).program.expect(name);
+        let text = program
+            .emit(0, EmitWhat::Value, Target::Wgsl, Precision::Accurate)
+            .expect(name);
+        let kilobytes = f64::from(u32::try_from(text.len()).expect("a size")) / 1000.0;
+        assert!(
+            (kilobytes - number(2)).abs() <= 0.06 * kilobytes,
+            "{name}: {kilobytes} KB, {row:?}: by special_cost --markdown anew"
+        );
+        compiled.push(number(5));
+        assert!(number(6) < 100.0, "{name}: {row:?}");
+    }
+    compiled.sort_by(f64::total_cmp);
+    assert!(compiled[compiled.len() / 2] < 3.0, "{compiled:?}");
 }

@@ -158,6 +158,26 @@ fn the_page_has_every_function() {
             format!("[![{name}](special-functions/{name}.png)](special-functions/{name}.pull)");
         assert!(page.contains(&row), "{name} has no row");
     }
+    let graphs = [
+        "lgamma",
+        "bessely",
+        "besseli",
+        "besselk",
+        "legendre_p",
+        "chebyshev_u",
+        "spherical_harmonic",
+    ];
+    for name in graphs {
+        let program = programs.iter().find(|p| p.name == name);
+        let program = program.unwrap_or_else(|| panic!("{name} has no program"));
+        assert!(program.text.contains("show implicit(f)"), "{name}");
+    }
+    for program in &programs {
+        let name = &program.name;
+        let row =
+            format!("[![{name}](special-functions/{name}.png)](special-functions/{name}.pull)");
+        assert!(page.contains(&row), "{name} has no row");
+    }
     for program in programs {
         let answer = compile(&program.text);
         assert!(

@@ -62,6 +62,41 @@ fn derivatives_by_parameters_grow_as_their_own_derivatives_say() {
     }
 }
 
+/// The second derivative by a parameter is the integral of its own derivative by the argument.
+#[test]
+fn second_derivatives_by_parameters_grow_as_their_own_derivatives_say() {
+    let functions = [
+        ("jacobi_sn(T, y)", "0"),
+        ("jacobi_cn(T, y)", "0"),
+        ("jacobi_dn(T, y)", "0"),
+        ("hypergeometric(y, 0.75, 1.25, T/4)", "0"),
+        ("hypergeometric(y, y + 1, 1.25, T/4)", "0"),
+        ("hypergeometric(0.75, y, y + 3, T/4)", "0"),
+        ("hypergeometric(0.75, 1.25, y + 3, T/4)", "0"),
+        (
+            "gegenbauer_c(5, y, T)",
+            "diff(gegenbauer_c(5, y, 0 x), y, 2)",
+        ),
+        ("laguerre_l(5, y, T)", "diff(laguerre_l(5, y, 0 x), y, 2)"),
+    ];
+    for (function, start) in functions {
+        let curve = format!("diff({}, y, 2)", function.replace('T', "x"));
+        let grown = format!(
+            "quadrature(diff(diff({}, y, 2), t), t, 0, x)",
+            function.replace('T', "t")
+        );
+        for (x, y) in [(0.75, 0.5), (-1.25, 0.25), (0.5, -1.5), (0.375, 1.75)] {
+            let left = value(&curve, x, y);
+            let right = value(&format!("{start} + {grown} + 0 x + 0 y"), x, y);
+            assert!(
+                (left - right).abs() < 1e-11 * (1.0 + left.abs()),
+                "{curve} at {x}, {y}: {left}, {right}"
+            );
+            assert!(left.abs() > 1e-6, "{curve} at {x}, {y}: {left}");
+        }
+    }
+}
+
 /// sn² + cn² = 1 and dn² + m sn² = 1 (DLMF 22.6.1), differentiated by m, also where formulas by m and 1 - m would be 0/0.
 #[test]
 fn derivatives_by_the_parameter_of_elliptic_functions_keep_their_equations() {
@@ -102,31 +137,55 @@ fn derivatives_by_the_parameter_of_elliptic_functions_keep_their_equations() {
 fn what_has_no_derivative_says_so() {
     let missing = [
         ("f(z) = jacobi_sn(1/2, z)", "", ""),
+        ("f(z) = weierstrass_p_prime(1/4, z)", "", ""),
         (
-            "f(x, y) = diff(jacobi_sn(x, y), y, 2)",
+            "f(z) = weierstrass_p_prime_invariants(1/4, z, 1 - z)",
+            "",
+            "",
+        ),
+        ("f(z) = diff(jacobi_sn(1/2, z), z)", "", ""),
+        ("f(z) = diff(hypergeometric(z, 1/2, 1 + z, z/4), z)", "", ""),
+        (
+            "f(x, y) = diff(jacobi_sn(x, y), y, 3)",
             "jacobi_sn",
-            "second derivative by m",
+            "third derivative by m",
         ),
         (
-            "f(x, y) = diff(hypergeometric(x, 1, 2, y/4), x, 2)",
+            "f(x, y) = diff(hypergeometric(x, 1, 2, y/4), x, 3)",
             "hypergeometric",
-            "second derivative by a, b, c",
+            "third derivative by a, b, c",
         ),
         (
-            "f(x, y) = diff(laguerre_l(3, x, y), x, 2)",
+            "f(x, y) = diff(laguerre_l(3, x, y), x, 3)",
             "laguerre_l",
-            "second derivative by a",
+            "third derivative by a",
         ),
         (
-            "f(z) = weierstrass_p(1/4, z)",
+            "f(x) = diff(elliptic_e(x), x, 3)",
+            "elliptic_k",
+            "third derivative",
+        ),
+        (
+            "f(z) = diff(modular_lambda(z), z, 3)",
+            "modular_lambda",
+            "third derivative",
+        ),
+        (
+            "f(z) = diff(weierstrass_p(1/4, z), z)",
             "weierstrass_p",
-            "derivative by τ",
+            "second derivative by τ",
         ),
         (
-            "f(z) = weierstrass_p_invariants(1/4, z, 1)",
+            "f(z) = diff(weierstrass_p_invariants(1/4, z, 1), z)",
             "weierstrass_p_invariants",
-            "derivative by g₂ or g₃",
+            "second derivative by g₂ or g₃",
         ),
+        (
+            "f(z) = diff(hurwitz_zeta(z, 1/2), z)",
+            "hurwitz_zeta",
+            "second derivative by s",
+        ),
+        ("f(z) = diff(zeta(z), z)", "zeta", "second derivative by s"),
     ];
     for (text, name, what) in missing {
         let answer = compile(text);

@@ -56,6 +56,8 @@ const SOURCE: &str = concat!(
     include_str!("library/special/polynomial.pull"),
     include_str!("library/special/theta.pull"),
     include_str!("library/special/jacobi.pull"),
+    include_str!("library/special/jacobi_curve.pull"),
+    include_str!("library/special/lattice.pull"),
     include_str!("library/special/hurwitz.pull"),
     include_str!("library/special/hypergeometric.pull"),
 );

@@ -176,7 +176,7 @@ pub enum Prim {
     EllipticK,
     EllipticE,
     /// (K(m) - E(m))/m
-    EllipticD,
+    EllipticD(u8),
     Dilogarithm,
     /// The n-th derivative of the Eisenstein series of weight 2.
     EisensteinE2(u8),
@@ -188,7 +188,7 @@ pub enum Prim {
     DedekindEta,
     ModularLambda,
     /// θ₂⁴ θ₄⁴/θ₃⁴ as a function of τ.
-    ModularLambdaSlope,
+    ModularLambdaSlope(u8),
     /// The n-th derivative by z of the elliptic function of Weierstrass.
     WeierstrassP(u8),
     /// Bessel function J, of (order, z).
@@ -280,6 +280,8 @@ impl Prim {
             | Self::EisensteinE2(n)
             | Self::EisensteinE4(n)
             | Self::EisensteinE6(n)
+            | Self::EllipticD(n)
+            | Self::ModularLambdaSlope(n)
             | Self::WeierstrassP(n)
             | Self::WeierstrassPInvariants(n)
             | Self::JacobiTheta1(n)
@@ -315,6 +317,8 @@ impl Prim {
             Self::EisensteinE2(_) => Self::EisensteinE2(n),
             Self::EisensteinE4(_) => Self::EisensteinE4(n),
             Self::EisensteinE6(_) => Self::EisensteinE6(n),
+            Self::EllipticD(_) => Self::EllipticD(n),
+            Self::ModularLambdaSlope(_) => Self::ModularLambdaSlope(n),
             Self::WeierstrassP(_) => Self::WeierstrassP(n),
             Self::WeierstrassPInvariants(_) => Self::WeierstrassPInvariants(n),
             Self::JacobiTheta1(_) => Self::JacobiTheta1(n),

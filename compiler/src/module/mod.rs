@@ -53,7 +53,7 @@ impl ModuleError {
                 span,
                 format!(
                     "`{}` has no {}, and that is needed here",
-                    crate::table::row(missing.prim).usage,
+                    crate::table::written(missing.prim).usage,
                     crate::table::lacking(missing.prim)
                 ),
             ),

@@ -10,7 +10,14 @@ pub(super) type Partial = fn(&mut Graph, &[Id], Id, usize) -> Id;
 pub fn last_order(prim: Prim) -> u8 {
     match prim {
         Prim::Faddeeva(_) => 3,
-        Prim::Hypergeometric(_) => 2,
+        Prim::Hypergeometric(_) => 6,
+        Prim::JacobiSn(_)
+        | Prim::JacobiCn(_)
+        | Prim::JacobiDn(_)
+        | Prim::GegenbauerC(_)
+        | Prim::LaguerreL(_) => 2,
+        Prim::WeierstrassP(_) => 3,
+        Prim::WeierstrassPInvariants(_) => 5,
         Prim::JacobiTheta1(_)
         | Prim::JacobiTheta2(_)
         | Prim::JacobiTheta3(_)
@@ -31,24 +38,30 @@ pub fn is_closed(prim: Prim) -> bool {
             | Prim::GegenbauerC(_)
             | Prim::LaguerreL(_)
             | Prim::Hypergeometric(_)
+            | Prim::HurwitzZeta(_)
+            | Prim::EisensteinE2(_)
+            | Prim::EisensteinE4(_)
+            | Prim::EisensteinE6(_)
     )
 }
 
-/// Whether an operation has no derivative by its k-th operand: second derivatives by a parameter, and those of ℘ by its lattice.
+/// Whether an operation has no derivative by its k-th operand: third derivatives by a parameter, second ones of ℘ by its lattice and of
+/// Hurwitz's function.
 pub fn is_missing(prim: Prim, k: usize) -> bool {
     match prim {
-        Prim::JacobiSn(1)
-        | Prim::JacobiCn(1)
-        | Prim::JacobiDn(1)
-        | Prim::GegenbauerC(1)
-        | Prim::LaguerreL(1)
-        | Prim::WeierstrassP(_)
+        Prim::JacobiSn(2..)
+        | Prim::JacobiCn(2..)
+        | Prim::JacobiDn(2..)
+        | Prim::GegenbauerC(2..)
+        | Prim::LaguerreL(2..)
+        | Prim::WeierstrassP(2..)
         | Prim::JacobiTheta1(3..)
         | Prim::JacobiTheta2(3..)
         | Prim::JacobiTheta3(3..)
         | Prim::JacobiTheta4(3..) => k == 1,
-        Prim::WeierstrassPInvariants(_) => k > 0,
-        Prim::Hypergeometric(1..) => k < 3,
+        Prim::WeierstrassPInvariants(2..) => k > 0,
+        Prim::HurwitzZeta(1..) => k == 0,
+        Prim::Hypergeometric(3..) => k < 3,
         _ => false,
     }
 }
@@ -264,7 +277,7 @@ fn elliptic() -> [Row; 4] {
             Typing::Analytic(1),
             // (K - D)/(2 (1 - m))
             |g, args, value, _| {
-                let d = call(g, Prim::EllipticD, args[0]);
+                let d = call(g, Prim::EllipticD(0), args[0]);
                 let above = g.sub(value, d);
                 let rest = g.neg(args[0]);
                 let rest = plus(g, rest, 1.0);
@@ -280,21 +293,28 @@ fn elliptic() -> [Row; 4] {
             "complete elliptic integral of the second kind of the parameter m = k², cut above 1; NaN for reals there",
             Typing::Analytic(1),
             |g, args, _, _| {
-                let d = call(g, Prim::EllipticD, args[0]);
+                let d = call(g, Prim::EllipticD(0), args[0]);
                 scaled(g, -0.5, d)
             },
             400,
         ),
         Row {
             mnemonic: "elliptic_d",
-            derivative: Derivative::Missing,
             ..named(
-                Prim::EllipticD,
+                Prim::EllipticD(0),
                 &[],
                 "",
-                "(K(m) - E(m))/m",
+                "D(m) = (K(m) - E(m))/m, and C(m) = (2 D(m) - K(m))/m",
                 Typing::Analytic(1),
-                |g, _, _, _| undefined(g),
+                // (D - C)/(2 (1 - m))
+                |g, args, value, _| {
+                    let c = call(g, Prim::EllipticD(1), args[0]);
+                    let above = g.sub(value, c);
+                    let rest = g.neg(args[0]);
+                    let rest = plus(g, rest, 1.0);
+                    let below = scaled(g, 2.0, rest);
+                    g.div(above, below)
+                },
                 300,
             )
         },
@@ -304,7 +324,7 @@ fn elliptic() -> [Row; 4] {
                 Prim::WeierstrassP(0),
                 &["weierstrass_p"],
                 "weierstrass_p(z, τ)",
-                "Weierstrass's ℘ of the lattice of 1 and τ; no derivative by τ",
+                "Weierstrass's ℘ of the lattice of 1 and τ",
                 Typing::Complex(2),
                 weierstrass_partial,
                 1500,
@@ -313,8 +333,9 @@ fn elliptic() -> [Row; 4] {
     ]
 }
 
-/// ℘″ = 6 ℘² - g₂/2 (DLMF 23.3.12), g₂ = (4π⁴/3) E₄ (DLMF 23.12.5).
+/// By z and by τ the next members; ℘″ = 6 ℘² - g₂/2 (DLMF 23.3.12), g₂ = (4π⁴/3) E₄ (DLMF 23.12.5), and that differentiated by τ.
 fn weierstrass_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
+    let third = 2.0 / 3.0 * std::f64::consts::PI.powi(4);
     match (k, order(g, value)) {
         (0, 0) => g.apply(Prim::WeierstrassP(1), args),
         (0, 1) => {
@@ -322,9 +343,19 @@ fn weierstrass_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
             let square = square(g, value);
             let curve = scaled(g, 6.0, square);
             let e4 = call(g, Prim::EisensteinE4(0), args[1]);
-            let fixed = scaled(g, 2.0 / 3.0 * std::f64::consts::PI.powi(4), e4);
+            let fixed = scaled(g, third, e4);
             g.sub(curve, fixed)
         }
+        (0, 2) | (1, 1) => g.apply(Prim::WeierstrassP(3), args),
+        (0, 3) => {
+            let [value, moved] = [0, 2].map(|n| g.apply(Prim::WeierstrassP(n), args));
+            let product = g.mul(value, moved);
+            let curve = scaled(g, 12.0, product);
+            let slope = call(g, Prim::EisensteinE4(1), args[1]);
+            let fixed = scaled(g, third, slope);
+            g.sub(curve, fixed)
+        }
+        (1, 0) => g.apply(Prim::WeierstrassP(2), args),
         _ => undefined(g),
     }
 }
@@ -333,6 +364,38 @@ fn weierstrass_partial(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
 fn turned(g: &mut Graph, c: f64, a: Id) -> Id {
     let factor = g.complex(0.0, c * std::f64::consts::PI);
     g.mul(factor, a)
+}
+
+/// The first derivatives are the next members; the second ones by the equations of Ramanujan for the first,
+///   E₂′ = (πi/6) (E₂² - E₄), E₄′ = (2πi/3) (E₂ E₄ - E₆), E₆′ = πi (E₂ E₆ - E₄²)
+/// (Zagier, Elliptic modular forms and their applications, in: The 1-2-3 of Modular Forms, 2008, proposition 15), differentiated.
+fn eisenstein(g: &mut Graph, args: &[Id], value: Id, _: usize) -> Id {
+    let prim = match g.node(value).op {
+        Op::Apply(prim) => prim,
+        _ => return undefined(g),
+    };
+    if prim.order() == Some(0) {
+        return g.apply(prim.with_order(1), args);
+    }
+    let families = [
+        Prim::EisensteinE2(0),
+        Prim::EisensteinE4(0),
+        Prim::EisensteinE6(0),
+    ];
+    let [e2, e4, e6] = families.map(|form| call(g, form, args[0]));
+    let [d2, d4, d6] = families.map(|form| call(g, form.with_order(1), args[0]));
+    let (left, right, last, factor) = match prim {
+        Prim::EisensteinE2(_) => ((e2, d2), (e2, d2), d4, 1.0 / 6.0),
+        Prim::EisensteinE4(_) => ((d2, e4), (e2, d4), d6, 2.0 / 3.0),
+        _ => {
+            let product = g.mul(e4, d4);
+            ((d2, e6), (e2, d6), scaled(g, 2.0, product), 1.0)
+        }
+    };
+    let [left, right] = [left, right].map(|(a, b)| g.mul(a, b));
+    let sum = g.add(left, right);
+    let rest = g.sub(sum, last);
+    turned(g, factor, rest)
 }
 
 fn modular() -> [Row; 7] {
@@ -345,21 +408,21 @@ fn modular() -> [Row; 7] {
             &["eisenstein_e2"],
             "eisenstein_e2(τ)",
             "Eisenstein series E₂ = 1 - 24 (q + 3q² + …), q = exp(2πiτ), of im τ > 0",
-            |g, args, _, _| call(g, Prim::EisensteinE2(1), args[0]),
+            eisenstein,
         ),
         form(
             Prim::EisensteinE4(0),
             &["eisenstein_e4"],
             "eisenstein_e4(τ)",
             "Eisenstein series E₄ = 1 + 240 (q + 9q² + …), q = exp(2πiτ), of im τ > 0",
-            |g, args, _, _| call(g, Prim::EisensteinE4(1), args[0]),
+            eisenstein,
         ),
         form(
             Prim::EisensteinE6(0),
             &["eisenstein_e6"],
             "eisenstein_e6(τ)",
             "Eisenstein series E₆ = 1 - 504 (q + 33q² + …), q = exp(2πiτ), of im τ > 0",
-            |g, args, _, _| call(g, Prim::EisensteinE6(1), args[0]),
+            eisenstein,
         ),
         form(
             Prim::KleinJ,
@@ -394,19 +457,26 @@ fn modular() -> [Row; 7] {
             "elliptic modular function λ = θ₂⁴/θ₃⁴ of im τ > 0",
             // πi λ (1 - λ) θ₃⁴
             |g, args, _, _| {
-                let slope = call(g, Prim::ModularLambdaSlope, args[0]);
+                let slope = call(g, Prim::ModularLambdaSlope(0), args[0]);
                 turned(g, 1.0, slope)
             },
         ),
         Row {
             mnemonic: "modular_lambda_slope",
-            derivative: Derivative::Missing,
             ..form(
-                Prim::ModularLambdaSlope,
+                Prim::ModularLambdaSlope(0),
                 &[],
                 "",
-                "θ₂⁴ θ₄⁴/θ₃⁴ as a function of τ",
-                |g, _, _, _| undefined(g),
+                "θ₂⁴ θ₄⁴/θ₃⁴ as a function of τ, and θ₄⁴ - θ₂⁴",
+                // (πi/3) (E₂ + 2 (θ₄⁴ - θ₂⁴)) times it
+                |g, args, value, _| {
+                    let e2 = call(g, Prim::EisensteinE2(0), args[0]);
+                    let powers = call(g, Prim::ModularLambdaSlope(1), args[0]);
+                    let twice = scaled(g, 2.0, powers);
+                    let sum = g.add(e2, twice);
+                    let product = g.mul(value, sum);
+                    turned(g, 1.0 / 3.0, product)
+                },
             )
         },
     ]

@@ -19,7 +19,7 @@ const EXCESS: [Excess; 15] = [
     ("jacobi_theta4", 1.75, STEPS),
     ("jacobi_sn", 1.25, PERIOD),
     ("jacobi_cn", 1.25, PERIOD),
-    ("weierstrass_p_invariants", 1.25, PERIOD),
+    ("weierstrass_p_invariants", 1.5, PERIOD),
     ("weierstrass_p_prime_invariants", 1.25, PERIOD),
     ("weierstrass_p", 2.0, ZEROS),
 ];

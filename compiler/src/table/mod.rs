@@ -256,15 +256,31 @@ pub fn is_missing(prim: Prim, k: usize) -> bool {
     defined::is_missing(prim, k)
 }
 
+/// The row of the function that a user has written: the operation's own, or where it has no name that of which it is a derivative.
+#[must_use]
+pub fn written(prim: Prim) -> &'static Row {
+    let of = match prim {
+        Prim::EllipticD(_) => Prim::EllipticK,
+        Prim::ModularLambdaSlope(_) => Prim::ModularLambda,
+        Prim::DigammaRise => Prim::EulerBeta,
+        other => other,
+    };
+    row(of)
+}
+
 /// What an operation lacks that has no derivative, or none by some of its operands, in words.
 #[must_use]
 pub fn lacking(prim: Prim) -> &'static str {
     match prim {
-        Prim::JacobiSn(_) | Prim::JacobiCn(_) | Prim::JacobiDn(_) => "second derivative by m",
-        Prim::GegenbauerC(_) | Prim::LaguerreL(_) => "second derivative by a",
-        Prim::Hypergeometric(_) => "second derivative by a, b, c",
-        Prim::WeierstrassP(_) => "derivative by τ",
-        Prim::WeierstrassPInvariants(_) => "derivative by g₂ or g₃",
+        Prim::JacobiSn(_) | Prim::JacobiCn(_) | Prim::JacobiDn(_) => "third derivative by m",
+        Prim::GegenbauerC(_) | Prim::LaguerreL(_) => "third derivative by a",
+        Prim::Hypergeometric(_) => "third derivative by a, b, c",
+        Prim::EllipticD(_) | Prim::ModularLambdaSlope(_) => "third derivative",
+        Prim::HurwitzZeta(_) | Prim::Zeta(_) | Prim::DirichletEta(_) | Prim::DirichletBeta(_) => {
+            "second derivative by s"
+        }
+        Prim::WeierstrassP(_) => "second derivative by τ",
+        Prim::WeierstrassPInvariants(_) => "second derivative by g₂ or g₃",
         _ => "derivative",
     }
 }

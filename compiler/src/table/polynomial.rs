@@ -57,7 +57,10 @@ pub fn rows() -> Vec<Row> {
             // 2 a C(n - 1, a + 1) (DLMF 18.9.19), and of the derivative by a that of this product
             |g, args, value, k| match k {
                 0 => g.real(0.0),
-                1 => g.apply(Prim::GegenbauerC(1), args),
+                1 => {
+                    let m = order(g, value);
+                    g.apply(Prim::GegenbauerC(m + 1), args)
+                }
                 _ => {
                     let m = order(g, value);
                     let above = plus(g, args[1], 1.0);
@@ -67,8 +70,8 @@ pub fn rows() -> Vec<Row> {
                     if m == 0 {
                         return slope;
                     }
-                    let two = g.real(2.0);
-                    let more = lowered(g, Prim::GegenbauerC(0), args[0], rest, two);
+                    let twice = g.real(2.0 * f64::from(m));
+                    let more = lowered(g, Prim::GegenbauerC(m - 1), args[0], rest, twice);
                     g.add(slope, more)
                 }
             },
@@ -97,7 +100,10 @@ pub fn rows() -> Vec<Row> {
             // -L(n - 1, a + 1) (DLMF 18.9.23)
             |g, args, value, k| match k {
                 0 => g.real(0.0),
-                1 => g.apply(Prim::LaguerreL(1), args),
+                1 => {
+                    let m = order(g, value);
+                    g.apply(Prim::LaguerreL(m + 1), args)
+                }
                 _ => {
                     let prim = Prim::LaguerreL(order(g, value));
                     let above = plus(g, args[1], 1.0);

@@ -12,7 +12,7 @@ use super::subjects::formula;
 pub type Run<'a> = dyn FnMut(&Formula, What, &[Point]) -> Result<Vec<Vec<f64>>, String> + 'a;
 
 /// A formula with its rows.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Table {
     /// The function that it covers, or its name in the gallery.
     pub name: &'static str,

@@ -1,38 +1,45 @@
 //! Special functions on an adapter against tables of 60 digits, in every tier. The executable carries all that it needs.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, mpsc};
 use std::time::{Duration, Instant};
 
 use clap::Parser;
 use pullback_compiler::lower::Precision;
 use pullback_runtime::Error;
-use pullback_tests::accuracy::formulas::special;
-use pullback_tests::special::SpecialOptions;
+use pullback_tests::accuracy::formulas::{Table, special};
 use pullback_tests::special_batches::{Batch, Judged, Place, batches};
+use pullback_tests::special_record::{Record, wanted};
 
 /// The largest error of each special function on an adapter, as a multiple of the scale of its table. The exit code is 1
-/// where one is above what is declared, or was not reached in time.
+/// where one is above what is declared, or was not judged in time.
 #[derive(Parser)]
 struct Options {
-    /// The adapter may be `ieee32`, too: the processor, by the shaders of the tiers; `left` and `right` with products fused into sums
-    #[command(flatten)]
-    of: SpecialOptions,
+    /// `auto`, `gpu`, `software`, or part of an adapter's name; `ieee32` is the processor, by the shaders of the tiers, `left` and
+    /// `right` the processor with products fused into sums
+    #[arg(long, default_value = "auto")]
+    adapter: String,
+    /// Only these tables, with commas between: the table of this name, or else all whose names contain it
+    #[arg(long, value_delimiter = ',')]
+    only: Vec<String>,
     /// Tiers, with commas between
     #[arg(long, default_value = "accurate,extended,double", value_delimiter = ',', value_parser = tier)]
     precision: Vec<Precision>,
-    /// After this time no further function is begun
+    /// After this time it ends: what a driver still compiles is left out
     #[arg(long, default_value_t = 240)]
     seconds: u64,
     /// Functions that are compiled and run at the same time; as many as there are threads of the processor by default
     #[arg(long)]
     threads: Option<usize>,
-    /// A file for the results: a line for each table and tier, with tabs between
+    /// A file for the results, a line for each table and tier as soon as it is judged. What is in it already from this adapter
+    /// is judged last
     #[arg(long)]
     results: Option<PathBuf>,
+    /// Names of the tables, in the order in which they would be judged, and nothing else
+    #[arg(long)]
+    list: bool,
 }
 
 fn tier(name: &str) -> Result<Precision, String> {
@@ -52,110 +59,102 @@ fn main() -> ExitCode {
     }
 }
 
+/// A batch in a tier.
+type Task = (Batch, Precision);
+
 fn run(options: &Options) -> Result<bool, Error> {
-    let place = Place::open(options.of.adapter.as_deref().unwrap_or("auto"))?;
+    let place = Place::open(&options.adapter)?;
     println!("{place}\n");
+    let record = Record::read(options.results.as_deref(), &place.to_string())?;
     let mut tables = special();
-    tables.retain(|table| table.name.contains(&options.of.only));
-    let batches = batches(tables);
+    let names: Vec<&str> = tables.iter().map(|table| table.name).collect();
+    let chosen = wanted(&names, &options.only);
+    tables.retain(|table| chosen.contains(table.name));
+    let tasks = in_order(tables, &options.precision, &record);
+    if options.list {
+        for (batch, tier) in &tasks {
+            println!("{}: {}", tier.name(), batch.names().join(", "));
+        }
+        return Ok(true);
+    }
+    judge_all(options, place, tasks, &record)
+}
+
+/// Every batch in every tier: those first that have tables of which the record knows nothing, tier by tier in turn, and of a tier
+/// what a driver compiles in the shortest time, so that most is known when the time is over.
+fn in_order(tables: Vec<Table>, tiers: &[Precision], record: &Record) -> Vec<Task> {
+    let mut tasks = Vec::new();
+    for &tier in tiers {
+        let (judged, new): (Vec<Table>, Vec<Table>) = tables
+            .iter()
+            .cloned()
+            .partition(|table| record.has(table.name, tier));
+        for (seen, tables) in [(false, new), (true, judged)] {
+            let mut of_tier = batches(tables);
+            of_tier.sort_by_cached_key(|batch| batch.size(tier));
+            let ranked = of_tier.into_iter().enumerate();
+            tasks.extend(ranked.map(|(rank, batch)| ((seen, rank), (batch, tier))));
+        }
+    }
+    tasks.sort_by_key(|(rank, _)| *rank);
+    tasks.into_iter().map(|(_, task)| task).collect()
+}
+
+/// Judges until the time is over, and tells of each table at once.
+fn judge_all(
+    options: &Options,
+    place: Place,
+    tasks: Vec<Task>,
+    record: &Record,
+) -> Result<bool, Error> {
+    let limit = Duration::from_secs(options.seconds);
+    let available = std::thread::available_parallelism().map_or(4, usize::from);
+    let threads = options.threads.unwrap_or(available).max(1);
+    let all: usize = tasks.iter().map(|(batch, _)| batch.names().len()).sum();
     let begun = Instant::now();
-    let all = judge_all(options, &place, &tasks(&batches, &options.precision));
-    let wrong: Vec<&Judged> = all.iter().filter(|j| j.problem.is_some()).collect();
+    let results = start(place, tasks, threads, begun + limit);
+    let mut judged: Vec<Judged> = Vec::new();
+    // no wait for a driver that compiles on: the process ends with the time
+    while let Ok(batch) = results.recv_timeout(limit.saturating_sub(begun.elapsed())) {
+        for j in &batch {
+            println!("{j}");
+        }
+        record.add(&batch)?;
+        judged.extend(batch);
+    }
+    let wrong: Vec<&Judged> = judged.iter().filter(|j| j.problem.is_some()).collect();
     println!(
-        "\n{} shaders for {} tables and tiers in {:.0} s, {} above what is declared or not judged",
-        batches.len() * options.precision.len(),
-        all.len(),
+        "\n{} of {all} tables and tiers in {:.0} s, {} above what is declared",
+        judged.len(),
         begun.elapsed().as_secs_f64(),
         wrong.len()
     );
-    for judged in &wrong {
-        let reason = judged.problem.as_deref().unwrap_or("");
-        println!("{}, {}: {reason}", judged.name, judged.precision.name());
+    for j in &wrong {
+        let reason = j.problem.as_deref().unwrap_or("");
+        println!("{}, {}: {reason}", j.name, j.precision.name());
     }
-    if let Some(path) = &options.results {
-        std::fs::write(path, lines(&all))?;
-    }
-    Ok(wrong.is_empty())
+    Ok(wrong.is_empty() && judged.len() == all)
 }
 
-/// Every batch in every tier, what a driver compiles longest first.
-fn tasks<'a>(batches: &'a [Batch], tiers: &[Precision]) -> Vec<(&'a Batch, Precision)> {
-    let mut tasks: Vec<_> = batches
-        .iter()
-        .flat_map(|batch| tiers.iter().map(move |&tier| (batch, tier)))
-        .collect();
-    tasks.sort_by_cached_key(|(batch, tier)| std::cmp::Reverse(batch.size(*tier)));
-    tasks
-}
-
-fn judge_all(options: &Options, place: &Place, tasks: &[(&Batch, Precision)]) -> Vec<Judged> {
-    let (begun, limit) = (Instant::now(), Duration::from_secs(options.seconds));
-    let available = std::thread::available_parallelism().map_or(4, usize::from);
-    let (next, all) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    std::thread::scope(|scope| {
-        for _ in 0..options.threads.unwrap_or(available).max(1) {
-            scope.spawn(|| {
-                while let Some((batch, tier)) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let judged = if begun.elapsed() < limit {
-                        batch.judge(place, *tier)
-                    } else {
-                        batch.unreached(*tier, limit)
-                    };
-                    print!("{}", told(&judged));
-                    if let Ok(mut all) = all.lock() {
-                        all.extend(judged);
-                    }
+/// Threads that judge one task after another, and where their results arrive.
+fn start(
+    place: Place,
+    tasks: Vec<Task>,
+    threads: usize,
+    end: Instant,
+) -> mpsc::Receiver<Vec<Judged>> {
+    let shared = Arc::new((place, tasks, AtomicUsize::new(0)));
+    let (sender, results) = mpsc::channel();
+    for _ in 0..threads {
+        let (shared, sender) = (Arc::clone(&shared), sender.clone());
+        std::thread::spawn(move || {
+            let (place, tasks, next) = &*shared;
+            while let Some((batch, tier)) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) {
+                if Instant::now() >= end || sender.send(batch.judge(place, *tier)).is_err() {
+                    break;
                 }
-            });
-        }
-    });
-    all.into_inner().unwrap_or_default()
-}
-
-fn told(judged: &[Judged]) -> String {
-    let mut text = String::new();
-    for j in judged {
-        let (value, slope) = (j.factors.value, j.factors.derivative);
-        let _ = writeln!(
-            text,
-            "{}, {}: {value:.2}, {slope:.2} of {}, {:.1} s{}",
-            j.name,
-            j.precision.name(),
-            j.most,
-            j.seconds,
-            if j.problem.is_some() { " WRONG" } else { "" }
-        );
+            }
+        });
     }
-    text
-}
-
-fn lines(all: &[Judged]) -> String {
-    let head = [
-        "table",
-        "tier",
-        "value",
-        "derivative",
-        "declared",
-        "rows",
-        "seconds",
-        "problem",
-        "worst",
-    ];
-    let mut text = head.join("\t") + "\n";
-    for j in all {
-        let plain = |words: &str| words.replace(['\t', '\n'], " ");
-        let cells = [
-            j.name.to_owned(),
-            j.precision.name().to_owned(),
-            j.factors.value.to_string(),
-            j.factors.derivative.to_string(),
-            j.most.to_string(),
-            j.factors.rows.to_string(),
-            format!("{:.2}", j.seconds),
-            plain(j.problem.as_deref().unwrap_or("")),
-            plain(&j.factors.worst),
-        ];
-        text += &(cells.join("\t") + "\n");
-    }
-    text
+    results
 }

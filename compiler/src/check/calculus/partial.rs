@@ -151,7 +151,7 @@ impl Builder<'_> {
         let name = if digamma {
             "digamma"
         } else {
-            table::row(missing.prim).sign()
+            table::written(missing.prim).sign()
         };
         let mut problem = Diagnostic::error(
             "no-derivative",

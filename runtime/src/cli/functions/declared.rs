@@ -48,7 +48,7 @@ fn special(output: &mut dyn Write) -> io::Result<()> {
          [special-functions.md](special-functions.md); what they cost: [special.md](special.md).\n\nFunctions that are defined in the language may be off by 16 u of the norm of \
          the result and what changes of the arguments by 2 u\nmove, u = 2⁻²⁴, in `accurate` (10⁻⁶ of the norm); by four times that in \
          units of 2⁻⁴⁸ in `extended`, and sixteen times that in units of\n2⁻⁵³ in `double` (3 · 10⁻¹⁴ of the norm). Derivatives by four \
-         times as much. The suite `special` holds them to it. `accurate` exceeds that here:\n"
+         times as much, second derivatives by parameters by four times that. The suite `special` holds them to it. `accurate` exceeds that here:\n"
     )?;
     writeln!(
         output,
