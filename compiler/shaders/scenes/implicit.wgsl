@@ -37,6 +37,7 @@ struct Settings {
     ink: vec3f,
     touch: vec3f,
     doubt: vec3f,
+    backdrop: u32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -228,13 +229,14 @@ fn verdict_of(m: Model) -> Verdict {
     return Verdict(distance, touches, is_whole || is_pole, true);
 }
 
-fn side_colour(value: f32) -> vec3f {
-    let paper = vec3f(0.93, 0.92, 0.89);
-    return select(mix(paper, settings.below, settings.fill), mix(paper, settings.above, settings.fill), value > 0.0);
+// The colour of a side on paper, or on nothing, with its opacity, by which it is multiplied.
+fn side_colour(value: f32) -> vec4f {
+    let paper = select(vec4f(0.93, 0.92, 0.89, 1.0), vec4f(), settings.backdrop == 1u);
+    return mix(paper, vec4f(select(settings.below, settings.above, value > 0.0), 1.0), settings.fill);
 }
 
 // Both sides by their shares of the sample; on a curve that f touches there is one side.
-fn fill_colour(value: f32, verdict: Verdict) -> vec3f {
+fn fill_colour(value: f32, verdict: Verdict) -> vec4f {
     if value == 0.0 {
         return 0.5 * (side_colour(1.0) + side_colour(-1.0));
     }
@@ -249,23 +251,24 @@ fn reach_of_line() -> f32 {
 
 // What a sample tells.
 struct Sight {
-    colour: vec3f,     // where no line is near: of the sample
+    colour: vec4f,     // where no line is near: of the sample
     near: bool,
     value: f32,        // of f
     verdict: Verdict,
     to_zero: vec2f,    // from where f was asked to the zero of the model, world units
 }
 
-fn plain_sight(colour: vec3f) -> Sight {
+fn plain_sight(colour: vec4f) -> Sight {
     return Sight(colour, false, 0.0, Verdict(FAR, false, true, false), vec2f());
 }
 
 fn sight_of(jet: Jet2, pixel: vec2f) -> Sight {
     if !is_finite(jet.value) {
         if is_nan(jet.value) {
-            return plain_sight(undefined_colour(pixel));
+            return plain_sight(vec4f(undefined_colour(pixel), 1.0));
         }
-        return plain_sight(infinite_colour(pixel, side_colour(jet.value)));
+        let side = side_colour(jet.value);
+        return plain_sight(vec4f(infinite_colour(pixel, side.rgb), infinite_colour(pixel, side.aaa).x));
     }
     if !(is_finite(jet.dx) & is_finite(jet.dy)) {
         return plain_sight(doubtful(side_colour(jet.value), pixel));
@@ -282,7 +285,7 @@ fn sight_of(jet: Jet2, pixel: vec2f) -> Sight {
     var verdict = verdict_of(model_of(jet, unit, slope, side, bend));
     verdict.ahead = verdict.ahead & (verdict.distance < reach);
     let downhill = -side * vec2f(unit.dx, unit.dy) / max(slope, 1e-30);
-    return Sight(vec3f(), true, jet.value, verdict, verdict.distance * view.pixel * downhill);
+    return Sight(vec4f(), true, jet.value, verdict, verdict.distance * view.pixel * downhill);
 }
 
 // What is seen after a look at f at the zero of the model.
@@ -304,7 +307,7 @@ fn looked_again(sight: Sight, there: Jet2) -> Sight {
     return next;
 }
 
-fn colour_of(sight: Sight, pixel: vec2f) -> vec3f {
+fn colour_of(sight: Sight, pixel: vec2f) -> vec4f {
     if !sight.near {
         return sight.colour;
     }
@@ -314,12 +317,12 @@ fn colour_of(sight: Sight, pixel: vec2f) -> vec3f {
     if !verdict.settled {
         return doubtful(fill, pixel);
     }
-    return mix(fill, select(settings.ink, settings.touch, verdict.touches), line);
+    return mix(fill, vec4f(select(settings.ink, settings.touch, verdict.touches), 1.0), line);
 }
 
 // Where the curve may be, or not.
-fn doubtful(colour: vec3f, pixel: vec2f) -> vec3f {
-    return mix(colour, settings.doubt, 0.35 + 0.45 * hatch(pixel, 1.0, 4.0, 0.5, sample_window()));
+fn doubtful(colour: vec4f, pixel: vec2f) -> vec4f {
+    return mix(colour, vec4f(settings.doubt, 1.0), 0.35 + 0.45 * hatch(pixel, 1.0, 4.0, 0.5, sample_window()));
 }
 
 fn shade(pixel: vec2f) -> vec4f {
@@ -338,5 +341,5 @@ fn shade(pixel: vec2f) -> vec4f {
         }
         at += sight.to_zero;
     }
-    return vec4f(colour_of(sight, pixel), 1.0);
+    return colour_of(sight, pixel);
 }

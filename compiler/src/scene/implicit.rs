@@ -43,6 +43,12 @@ pub const SCENE: Scene = Scene {
             [0.95, 0.62, 0.02],
             "colour of the hatch where the curve may be or not, linear rgb",
         ),
+        SettingSpec::choice(
+            "backdrop",
+            &["plain", "transparent"],
+            0.0,
+            "what is behind, and shows where `fill` is less than 1: paper, or nothing",
+        ),
         SettingSpec::precision(),
     ],
 };

@@ -188,3 +188,34 @@ fn a_sphere_lies_on_any_ground() {
     assert!(worst < 2e-6 && partial > 20, "{worst}, {partial}");
     assert_eq!(clear[0], [0.0; 4]);
 }
+
+/// A curve with its sides lies on anything: over the colour of its paper it is what is drawn on that.
+#[test]
+fn a_curve_lies_on_any_ground() {
+    const PAPER: [f64; 3] = [0.93, 0.92, 0.89];
+    let Some(gpu) = device() else { return };
+    for formula in [
+        "x^2 + y^2 - 0.5",
+        "(x - y)^2",
+        "x/(y + 0.3) + sqrt(x + 0.7)",
+        "sin(1/(x^2 + y^2))",
+    ] {
+        for fill in [0.0, 0.4] {
+            let source = |backdrop: &str| {
+                format!(
+                    "f(x, y) = {formula}\nshow implicit(f) {{ fill = {fill}, backdrop = {backdrop} }}"
+                )
+            };
+            let clear = linear(&gpu, &source("transparent"));
+            let (exact, partial, _) = compared(&clear, &linear(&gpu, &source("plain")), PAPER);
+            println!("{formula}: {exact:.1e}, {partial} partial");
+            assert!(exact < 2e-6, "{formula}: {exact}");
+            assert!(
+                partial > 40,
+                "{formula}: {partial} pixels of the line's edge"
+            );
+            let empty = clear.iter().any(|pixel| pixel[3] == 0.0);
+            assert_eq!(empty, fill == 0.0, "{formula}");
+        }
+    }
+}
