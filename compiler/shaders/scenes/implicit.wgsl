@@ -14,6 +14,8 @@
 // The model of a function that is made of branches (max, min, |x|, conditions) is that of one of them, whose zero may lie where
 // another holds, as beyond a sharp corner. Such a function is asked again at the zero of the model, if that is near enough to be
 // seen: where it still has its sign there, the curve is as much farther as value and slope there tell, and so on.
+// Where a branch of small slope holds, nothing is known of a nearer zero of a steeper one: beside a corner such a line is thinner
+// on that side.
 //
 // An undefined value (NaN) is a quiet grey hatch, an infinity the colour of its side with a hatch of the other slope.
 // A constant is the colour of its side; where f and all its derivatives are 0 nothing is known about the curve.

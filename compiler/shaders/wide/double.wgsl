@@ -122,7 +122,7 @@ fn real_to_f32_beyond(x: real, e: f32) -> f32 {
     let y = scale(x, -i32(e));
     let nearest = real_to_f32(y);
     let limit = 8.507059173023462e37;
-    let is_beyond = is_finite(x) & (real_abs(y) > f64(limit));
+    let is_beyond = is_finite(x) & (f64(limit) < real_abs(y));
     return select(nearest, select(limit, -limit, sign_is_set(y)), is_beyond);
 }
 
