@@ -9,7 +9,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::time::{Duration, Instant};
 
 /// How long the browser may take for all that a page asks of it.
-const PATIENCE: Duration = Duration::from_secs(300);
+const PATIENCE: Duration = Duration::from_secs(900);
 /// How long it may take to ask for the page.
 const START: Duration = Duration::from_secs(90);
 /// Names under which systems install it.
