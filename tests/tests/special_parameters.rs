@@ -85,7 +85,7 @@ fn second_derivatives_by_parameters_grow_as_their_own_derivatives_say() {
             "quadrature(diff(diff({}, y, 2), t), t, 0, x)",
             function.replace('T', "t")
         );
-        for (x, y) in [(0.75, 0.5), (-1.25, 0.25), (0.5, -1.5), (0.375, 1.75)] {
+        for (x, y) in [(0.75, 0.25), (-0.5, 1.75)] {
             let left = value(&curve, x, y);
             let right = value(&format!("{start} + {grown} + 0 x + 0 y"), x, y);
             assert!(

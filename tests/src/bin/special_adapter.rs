@@ -63,6 +63,7 @@ fn main() -> ExitCode {
 type Task = (Batch, Precision);
 
 fn run(options: &Options) -> Result<bool, Error> {
+    let begun = Instant::now();
     let place = Place::open(&options.adapter)?;
     println!("{place}\n");
     let record = Record::read(options.results.as_deref(), &place.to_string())?;
@@ -77,7 +78,7 @@ fn run(options: &Options) -> Result<bool, Error> {
         }
         return Ok(true);
     }
-    judge_all(options, place, tasks, &record)
+    judge_all(options, place, tasks, &record, begun)
 }
 
 /// Every batch in every tier: those first that have tables of which the record knows nothing, tier by tier in turn, and of a tier
@@ -106,12 +107,12 @@ fn judge_all(
     place: Place,
     tasks: Vec<Task>,
     record: &Record,
+    begun: Instant,
 ) -> Result<bool, Error> {
     let limit = Duration::from_secs(options.seconds);
     let available = std::thread::available_parallelism().map_or(4, usize::from);
     let threads = options.threads.unwrap_or(available).max(1);
     let all: usize = tasks.iter().map(|(batch, _)| batch.names().len()).sum();
-    let begun = Instant::now();
     let results = start(place, tasks, threads, begun + limit);
     let mut judged: Vec<Judged> = Vec::new();
     // no wait for a driver that compiles on: the process ends with the time
