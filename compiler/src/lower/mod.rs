@@ -1,6 +1,7 @@
 //! From the IR to a naga function.
 
 mod body;
+mod branches;
 mod defined;
 mod exactness;
 mod format;
