@@ -435,15 +435,21 @@ impl Integrator<'_> {
         let sides = self.pair_at_ends(of);
         let [low, high] = [0, 1].map(|k| Pair::if_less(self.g, w, zero, sides[1 - k], sides[k]));
         let w = if_less(self.g, w, zero, falling, w);
-        // left of 0 it is an exponential, which the rest of its exponent changes by that
+        // log(1 + e^x) = max(x, 0) + log(1 + e^-|x|): what is large in it is the width of the part right of 0. Left of 0 it is
+        // an exponential, which the rest of its exponent changes by that
         let [from, to] = [low, high].map(|end| {
-            let value = call(self.g, Prim::Log1pExp, end.value);
+            let size = call(self.g, Prim::Abs, end.value);
+            let fall = self.g.neg(size);
+            let value = call(self.g, Prim::Log1pExp, fall);
             let rest = if_less(self.g, end.value, zero, end.rest, zero);
             self.grown(value, rest)
         });
         let width = scale(self.g, 2.0, w);
+        let right = self.g.apply(Prim::Max, &[high.value, zero]);
+        let right = if_less(self.g, low.value, zero, right, width);
         let difference = self.g.sub(to, from);
-        let far = self.g.div(difference, width);
+        let sum = self.g.add(right, difference);
+        let far = self.g.div(sum, width);
         let one = self.g.real(1.0);
         let turned = self.g.neg(low.value);
         let fall = call(self.g, Prim::Exp, turned);

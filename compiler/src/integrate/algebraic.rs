@@ -20,6 +20,8 @@ pub(super) const NEAR_NODES: usize = 12;
 const NEAR_NODES_OF_MOMENTS: usize = 16;
 /// (1/1.29)²
 const REACH_OF_MOMENTS: f64 = 0.6;
+/// a h² as a part of (r₀ + r₁)² where the zeros are on the same ellipse, the semi-axes of which add up to 2.1h.
+const SUM_OF_MOMENTS: f64 = 0.15;
 /// Below it a quadratic counts as 0 where its logarithm is multiplied by 0.
 pub(super) const TINY: f64 = 1e-37;
 
@@ -82,7 +84,11 @@ impl Integrator<'_> {
                 Ok((self.equiangular(&bowl, polynomials, k), Rule::Equiangular))
             }
             (-3, _) | (-2.., _) => {
-                let far = self.moments(&bowl, polynomials, degree, Moments::Power(twice));
+                let far = match (twice, degree) {
+                    (..=-2, _) => self.moments(&bowl, polynomials, degree, twice),
+                    (_, 0) => self.power_by_parts(&bowl, twice),
+                    _ => self.beside_root(&bowl, polynomials, degree, twice),
+                };
                 let integrand =
                     self.beside(polynomials, super::term::Factor::Power(base, exponent));
                 Ok((
@@ -121,7 +127,7 @@ impl Integrator<'_> {
         let whole = self.path.clone();
         self.path = whole.rebased(self.g);
         let bowl = self.bowl(base);
-        let far = self.moments(&bowl, polynomials, degree, Moments::Log);
+        let far = self.beside_log(&bowl, polynomials, degree);
         let integrand = self.beside(polynomials, super::term::Factor::Log(base));
         let value = self.near_or(&bowl, integrand, degree, far);
         self.path = whole;
@@ -166,6 +172,11 @@ impl Integrator<'_> {
         let mut limit = scale(self.g, share, bowl.q.c);
         if !bowl.is_sum_of_squares {
             limit = call(self.g, Prim::Abs, limit);
+        } else if degree > 0 {
+            // the zeros are (r₀ + r₁)/√a from both ends together: on an ellipse around them
+            let (_, sum) = self.roots(bowl);
+            let sum = square(self.g, sum);
+            limit = scale(self.g, SUM_OF_MOMENTS, sum);
         }
         if_less(self.g, reach, limit, near, far)
     }
@@ -238,7 +249,7 @@ impl Integrator<'_> {
 
     /// Of q of any curvature: ∫ 1/√q = 2 L atan2(√(-a) L, r₀ + r₁)/(√(-a) L), and where E < 0 the logarithm that this is,
     /// (2/√a) log((r₀ + r₁ + √a L)/√(2 (r₀ r₁ + E))).
-    fn reciprocal_root(&mut self, bowl: &Bowl) -> Id {
+    pub(super) fn reciprocal_root(&mut self, bowl: &Bowl) -> Id {
         if bowl.opens_up {
             return self.reciprocal_root_of_bowl(bowl);
         }
@@ -312,6 +323,10 @@ impl Integrator<'_> {
 
     /// σ = t - t₀ at both ends, t₀ the place of the least q.
     pub(super) fn offsets(&mut self, bowl: &Bowl) -> [Id; 2] {
+        if !bowl.opens_up {
+            // slopes and a may cancel
+            return [0, 1].map(|end| self.offset_pair(bowl, end).total(self.g));
+        }
         bowl.q.slopes.map(|b| self.g.div(b, bowl.q.a))
     }
 
@@ -323,7 +338,7 @@ impl Integrator<'_> {
 
     /// ∫ q^(n/2) for n > 0 by parts down to the root or to the reciprocal root:
     /// (n + 1) I = [σ q^(n/2)] + n (D/a) I of n - 2.
-    fn power_by_parts(&mut self, bowl: &Bowl, n: i32) -> Id {
+    pub(super) fn power_by_parts(&mut self, bowl: &Bowl, n: i32) -> Id {
         let offsets = self.offsets(bowl);
         let depth = self.g.div(bowl.q.discriminant, bowl.q.a);
         let (roots, _) = self.roots(bowl);
@@ -367,14 +382,11 @@ impl Integrator<'_> {
         if_less(self.g, zero, bowl.q.a, log, open)
     }
 
-    /// Σ p⁽ᵏ⁾(s₀)/k! ∫ σᵏ w for a power or logarithm w of q, where the interval is long.
-    fn moments(&mut self, bowl: &Bowl, polynomials: &[Id], degree: u32, weight: Moments) -> Id {
+    /// Σ p⁽ᵏ⁾(s₀)/k! ∫ σᵏ q^(n/2) for n < -1, where the interval is long.
+    fn moments(&mut self, bowl: &Bowl, polynomials: &[Id], degree: u32, n: i32) -> Id {
         let offsets = self.offsets(bowl);
         let coefficients = self.taylor(polynomials, degree, bowl.q.foot, bowl.q.foot_low);
-        let moments = match weight {
-            Moments::Power(n) => self.power_moments(bowl, offsets, n, degree),
-            Moments::Log => self.log_moments(bowl, offsets, degree),
-        };
+        let moments = self.power_moments(bowl, offsets, n, degree);
         let mut parts: Vec<Id> = coefficients
             .iter()
             .zip(&moments)
@@ -406,14 +418,11 @@ impl Integrator<'_> {
         out
     }
 
-    /// Fₖ = ∫ σᵏ q^(n/2): (n + 1 + k) Fₖ = [σᵏ⁻¹ q^(n/2 + 1)]/a - (k - 1) (D/a²) Fₖ₋₂.
+    /// Fₖ = ∫ σᵏ q^(n/2) for n = -2 and -3: (n + 1 + k) Fₖ = [σᵏ⁻¹ q^(n/2 + 1)]/a - (k - 1) (D/a²) Fₖ₋₂.
     fn power_moments(&mut self, bowl: &Bowl, offsets: [Id; 2], n: i32, degree: u32) -> Vec<Id> {
         let first = match n {
             -3 => self.reciprocal_cube(bowl),
-            -2 => self.reciprocal(bowl),
-            -1 => self.reciprocal_root(bowl),
-            n if n % 2 == 0 => self.length_of_path(),
-            n => self.power_by_parts(bowl, n),
+            _ => self.reciprocal(bowl),
         };
         let raised = bowl.ends.map(|q| self.half_power(q, n + 2));
         let mut out = vec![first];
@@ -460,30 +469,6 @@ impl Integrator<'_> {
         out
     }
 
-    /// (k + 1) ∫ σᵏ log q = [σᵏ⁺¹ log q] - 2 a ∫ σᵏ⁺²/q.
-    fn log_moments(&mut self, bowl: &Bowl, offsets: [Id; 2], degree: u32) -> Vec<Id> {
-        let rational = self.power_moments(bowl, offsets, -2, degree + 2);
-        let floor = self.g.real(TINY);
-        let logs = bowl.ends.map(|q| {
-            let q = self.g.apply(Prim::Max, &[q, floor]);
-            call(self.g, Prim::Log, q)
-        });
-        let mut out = Vec::new();
-        for k in 0..=i32::try_from(degree).unwrap_or(0) {
-            let ends = [0, 1].map(|i| {
-                let power = self.g.apply(Prim::PowInt(k + 1), &[offsets[i]]);
-                mul(self.g, power, logs[i])
-            });
-            let ends = self.g.sub(ends[1], ends[0]);
-            let index = usize::try_from(k + 2).unwrap_or(0);
-            let rest = mul(self.g, bowl.q.a, rational[index]);
-            let rest = scale(self.g, 2.0, rest);
-            let sum = self.g.sub(ends, rest);
-            out.push(scale(self.g, 1.0 / f64::from(k + 1), sum));
-        }
-        out
-    }
-
     /// q^(n/2)
     pub(super) fn half_power(&mut self, q: Id, n: i32) -> Id {
         if n % 2 == 0 {
@@ -492,13 +477,4 @@ impl Integrator<'_> {
         let root = call(self.g, Prim::Sqrt, q);
         self.g.apply(Prim::PowInt(n), &[root])
     }
-}
-
-/// What a polynomial is multiplied by.
-#[derive(Clone, Copy)]
-enum Moments {
-    /// q^(n/2)
-    Power(i32),
-    /// log q
-    Log,
 }

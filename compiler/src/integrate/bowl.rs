@@ -10,6 +10,11 @@ use crate::ir::{Id, Prim};
 
 /// What a is kept from 0 by, where its root has no derivative.
 const LEAST_CURVE: f64 = 1e-37;
+/// What z is kept from 1 by where it is rounded to 1 or more: half a unit of binary32. There k changes by less than that
+/// counts, as it is multiplied by about 1 - z.
+const NEXT_TO_ONE: f64 = 1.0 - 0.5 * f32::EPSILON as f64;
+/// Beyond it L²/S² is that of squares that underflow.
+const LARGEST_RATIO: f64 = 1e36;
 /// What S is kept from 0 by.
 const LEAST_SUM: f64 = 1e-30;
 
@@ -50,13 +55,15 @@ impl Integrator<'_> {
         let ratio = self.g.div(bowl.length, safe);
         let ratio = square(self.g, ratio);
         let z = mul(self.g, bowl.q.a, ratio);
+        let (one, most) = (self.g.real(1.0), self.g.real(NEXT_TO_ONE));
+        let z = if_less(self.g, z, one, z, most);
         let back = self.g.neg(z);
         let moment = self.g.apply(Prim::AtanQuotient(1), &[back]);
         let depth = mul(self.g, bowl.q.discriminant, ratio);
         let part = mul(self.g, depth, moment);
-        // beside z = 1 it is (1 - z) log(1 - z) beside 1
-        let (zero, one) = (self.g.real(0.0), self.g.real(1.0));
-        let part = if_less(self.g, z, one, part, zero);
+        // of a line that is so short and near the zero that its squares are none, nothing
+        let (zero, large) = (self.g.real(0.0), self.g.real(LARGEST_RATIO));
+        let part = if_less(self.g, ratio, large, part, zero);
         let top = add(self.g, bowl.q.c, part);
         let middle = div(self.g, top, safe);
         let quarter = scale(self.g, 0.25, sum);

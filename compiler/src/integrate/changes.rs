@@ -2,13 +2,14 @@
 //! changes by from there.
 //!
 //! Beside a zero, sin x cos y + sin y cos z is what is left of terms near 1, and their roundings would be most of it. The
-//! middle has the rests of its waves, sums and products. What a product changes by is a Δb + Δa (b + Δb), which is as
-//! small as the changes are, and so are its roundings.
+//! middle has the rests of its waves, sums and products. What changes from there to a node is s f' and what is beyond that: the
+//! slope in the middle is known by pairs, too, as slopes may cancel where values do; what is beyond it is of the second
+//! order, and so are its roundings.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Integrator;
-use super::arithmetic::{add, call, div, mul, mul_add, scale, sub};
+use super::arithmetic::{add, call, div, if_less, mul, mul_add, scale, sub};
 use super::legendre::{Node, gauss_legendre};
 use super::local::{Kind, Local};
 use super::pair::Pair;
@@ -25,6 +26,17 @@ struct Above {
     middle: FxHashMap<Id, Pair>,
     /// The same as one number each.
     totals: FxHashMap<Id, Id>,
+    /// Slopes in the middle; of what has none the whole change is taken as one.
+    slopes: FxHashMap<Id, Id>,
+}
+
+/// A node of the rule on one side of the middle.
+#[derive(Clone, Copy)]
+struct Step {
+    /// Its distance from the middle.
+    size: Id,
+    /// 1 or -1
+    side: f64,
 }
 
 impl Integrator<'_> {
@@ -51,11 +63,12 @@ impl Integrator<'_> {
             let mut both = self.g.real(0.0);
             for &side in sides {
                 let step = scale(self.g, place, self.path.half);
-                let changes = locals
+                let step = Step { size: step, side };
+                let beyond = locals
                     .iter()
-                    .map(|l| (l.id, self.local_change(l, &above, step, side)))
+                    .map(|l| (l.id, self.beyond_local_slope(l, &above, step)))
                     .collect();
-                let change = self.change_of(root, &above, changes)?;
+                let change = self.change_of(root, &above, beyond, step)?;
                 let beside = add(self.g, base.rest, change);
                 let value = add(self.g, base.value, beside);
                 both = add(self.g, both, value);
@@ -151,11 +164,99 @@ impl Integrator<'_> {
             .iter()
             .map(|(&id, pair)| (id, pair.total(self.g)))
             .collect();
+        let slopes = self.slopes_in_the_middle(&order, locals, &middle);
+        let slopes = slopes
+            .into_iter()
+            .map(|(id, pair)| (id, pair.total(self.g)))
+            .collect();
         Some(Above {
             order,
             middle,
             totals,
+            slopes,
         })
+    }
+
+    /// Slopes by t with their rests, of waves, polynomials, and their sums, products and squares.
+    fn slopes_in_the_middle(
+        &mut self,
+        order: &[Id],
+        locals: &[Local],
+        middle: &FxHashMap<Id, Pair>,
+    ) -> FxHashMap<Id, Pair> {
+        let mut out: FxHashMap<Id, Pair> = FxHashMap::default();
+        for local in locals {
+            let pair = match local.kind {
+                Kind::Polynomial => self.rate_pair(local.id, local.slope),
+                Kind::Wave(prim) => {
+                    let rate = self.rate_pair(self.g.node(local.id).args[0], local.slope);
+                    let turned = match prim {
+                        Prim::Sin => self.wave_pair(Prim::Cos, local.middle),
+                        _ => self.wave_pair(Prim::Sin, local.middle).negated(self.g),
+                    };
+                    turned.times(self.g, rate)
+                }
+                Kind::Exponential | Kind::Logarithm => continue,
+            };
+            out.insert(local.id, pair);
+        }
+        for &id in order {
+            if let Some(slope) = self.slope_of_operation(id, &out, middle) {
+                out.insert(id, slope);
+            }
+        }
+        out
+    }
+
+    /// The slope of a polynomial of degree 1 or 2 in the middle.
+    fn rate_pair(&mut self, of: Id, rounded: Id) -> Pair {
+        let slope = self.slope(of);
+        let whole = self.path.clone();
+        let values = whole.pairs_in_middle(self.g);
+        self.whole_pair(slope, &values)
+            .unwrap_or_else(|| Pair::exact(self.g, rounded))
+    }
+
+    fn slope_of_operation(
+        &mut self,
+        id: Id,
+        slopes: &FxHashMap<Id, Pair>,
+        middle: &FxHashMap<Id, Pair>,
+    ) -> Option<Pair> {
+        let node = self.g.node(id).clone();
+        let Op::Apply(prim) = node.op else {
+            return None;
+        };
+        let slope = |k: usize| slopes.get(&node.args[k]).copied();
+        let at = |k: usize| middle.get(&node.args[k]).copied();
+        let is_square =
+            prim == Prim::PowInt(2) || prim == Prim::Mul && node.args[0] == node.args[1];
+        if is_square {
+            let product = at(0)?.times(self.g, slope(0)?);
+            return Some(product.multiple(self.g, 2.0));
+        }
+        match prim {
+            Prim::Neg => Some(slope(0)?.negated(self.g)),
+            Prim::Add => self.sum_of_slopes(slope(0), slope(1)),
+            Prim::Sub => {
+                let back = slope(1).map(|s| s.negated(self.g));
+                self.sum_of_slopes(slope(0), back)
+            }
+            Prim::Div => Some(slope(0)?.over(self.g, node.args[1])),
+            Prim::Mul => {
+                let mut part = |a: Option<Pair>, b: Option<Pair>| Some(a?.times(self.g, b?));
+                let (left, right) = (part(slope(0), at(1)), part(at(0), slope(1)));
+                self.sum_of_slopes(left, right)
+            }
+            _ => None,
+        }
+    }
+
+    fn sum_of_slopes(&mut self, a: Option<Pair>, b: Option<Pair>) -> Option<Pair> {
+        match (a, b) {
+            (Some(a), Some(b)) => Some(a.plus(self.g, b)),
+            (one, other) => one.or(other),
+        }
     }
 
     /// A local part in the middle.
@@ -190,17 +291,10 @@ impl Integrator<'_> {
         Pair { value, rest }
     }
 
-    /// What a local part changes by from the middle to a step to one side.
-    fn local_change(&mut self, of: &Local, above: &Above, step: Id, side: f64) -> Id {
+    /// What a local part changes by from the middle to a node beyond its slope there; of exponentials and logarithms all of it.
+    fn beyond_local_slope(&mut self, of: &Local, above: &Above, step: Step) -> Id {
         if let Kind::Wave(prim) = of.kind {
-            let angle = mul(self.g, step, of.slope);
-            let half = scale(self.g, 0.5, angle);
-            let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, half));
-            // sin δ, and cos δ - 1
-            let turn = mul(self.g, sine, cosine);
-            let turn = scale(self.g, 2.0 * side, turn);
-            let fall = mul(self.g, sine, sine);
-            let fall = scale(self.g, -2.0, fall);
+            let [turn, fall] = self.beyond_angle(of.slope, step);
             let [up, along] = of.values;
             let (own, other) = match prim {
                 Prim::Sin => (up, along),
@@ -209,50 +303,117 @@ impl Integrator<'_> {
             let product = mul(self.g, other, turn);
             return mul_add(self.g, own, fall, product);
         }
-        let step = scale(self.g, side, step);
-        let rate = mul_add(self.g, step, of.curve, of.slope);
-        let change = mul(self.g, step, rate);
-        match of.kind {
-            Kind::Exponential => {
-                let growth = call(self.g, Prim::Expm1, change);
-                let size = above.totals.get(&of.id).copied().unwrap_or(of.values[0]);
-                mul(self.g, size, growth)
-            }
-            Kind::Logarithm => {
-                let part = div(self.g, change, of.middle.value);
-                call(self.g, Prim::Log1p, part)
-            }
-            _ => change,
+        let size = scale(self.g, step.side, step.size);
+        if matches!(of.kind, Kind::Polynomial) {
+            let curved = mul(self.g, size, of.curve);
+            return mul(self.g, size, curved);
         }
+        let rate = mul_add(self.g, size, of.curve, of.slope);
+        let change = mul(self.g, size, rate);
+        if matches!(of.kind, Kind::Exponential) {
+            let growth = call(self.g, Prim::Expm1, change);
+            let size = above.totals.get(&of.id).copied().unwrap_or(of.values[0]);
+            return mul(self.g, size, growth);
+        }
+        let part = div(self.g, change, of.middle.value);
+        call(self.g, Prim::Log1p, part)
     }
 
-    /// What the integrand changes by, from what its local parts do.
-    fn change_of(&mut self, root: Id, above: &Above, mut known: FxHashMap<Id, Id>) -> Option<Id> {
+    /// sin δ - δ and cos δ - 1 = -2 sin² δ/2 for what a phase changes by; the first by its series below 1.
+    fn beyond_angle(&mut self, slope: Id, step: Step) -> [Id; 2] {
+        let angle = mul(self.g, step.size, slope);
+        let half = scale(self.g, 0.5, angle);
+        let [sine, cosine] = [Prim::Sin, Prim::Cos].map(|p| call(self.g, p, half));
+        let fall = mul(self.g, sine, sine);
+        let fall = scale(self.g, -2.0, fall);
+        let product = mul(self.g, sine, cosine);
+        let whole = scale(self.g, 2.0, product);
+        let far = sub(self.g, whole, angle);
+        let square = mul(self.g, angle, angle);
+        let near = self.beyond_small_angle(angle, square);
+        let one = self.g.real(1.0);
+        let turn = if_less(self.g, square, one, near, far);
+        [scale(self.g, step.side, turn), fall]
+    }
+
+    /// sin δ - δ = -δ³/3! + δ⁵/5! - …, to δ¹⁵: the next term is 3e-15 at 1.
+    fn beyond_small_angle(&mut self, angle: Id, square: Id) -> Id {
+        let mut coefficient = -1.0;
+        let mut coefficients = Vec::new();
+        for k in 1..=7 {
+            let order = 2.0 * f64::from(k);
+            coefficient /= order * (order + 1.0);
+            coefficients.push(coefficient);
+            coefficient = -coefficient;
+        }
+        let mut sum = self.g.real(0.0);
+        for c in coefficients.into_iter().rev() {
+            let c = self.g.real(c);
+            sum = mul_add(self.g, sum, square, c);
+        }
+        let cube = mul(self.g, angle, square);
+        mul(self.g, cube, sum)
+    }
+
+    /// What the integrand changes by, from what its local parts change by beyond their slopes.
+    fn change_of(
+        &mut self,
+        root: Id,
+        above: &Above,
+        mut beyond: FxHashMap<Id, Id>,
+        step: Step,
+    ) -> Option<Id> {
         for &id in &above.order {
             let node = self.g.node(id).clone();
             let Op::Apply(prim) = node.op else {
                 return None;
             };
             let zero = self.g.real(0.0);
-            let of = |k: usize| known.get(&node.args[k]).copied().unwrap_or(zero);
+            let of = |k: usize| beyond.get(&node.args[k]).copied().unwrap_or(zero);
             let at = |k: usize| above.totals.get(&node.args[k]).copied();
+            let is_square = prim == Prim::Mul && node.args[0] == node.args[1];
             let change = match prim {
                 Prim::Neg => self.g.neg(of(0)),
                 Prim::Add => add(self.g, of(0), of(1)),
                 Prim::Sub => sub(self.g, of(0), of(1)),
                 Prim::Div => div(self.g, of(0), node.args[1]),
-                Prim::Mul if node.args[0] == node.args[1] => self.change_of_power(2, at(0)?, of(0)),
+                Prim::PowInt(_) | Prim::Mul if is_square || prim != Prim::Mul => {
+                    let n = if let Prim::PowInt(n) = prim { n } else { 2 };
+                    let whole = self.whole_change(node.args[0], of(0), above, step);
+                    if id == root {
+                        return Some(self.change_of_power(n, at(0)?, whole));
+                    }
+                    if n == 2 {
+                        // 2 a Δ and Δ², of the first what is beyond the slope
+                        let twice = scale(self.g, 2.0, at(0)?);
+                        let first = mul(self.g, twice, of(0));
+                        mul_add(self.g, whole, whole, first)
+                    } else {
+                        self.change_of_power(n, at(0)?, whole)
+                    }
+                }
                 Prim::Mul => {
-                    let there = add(self.g, at(1)?, of(1));
-                    let left = mul(self.g, of(0), there);
+                    let changes =
+                        [0, 1].map(|k| self.whole_change(node.args[k], of(k), above, step));
+                    let both = mul(self.g, changes[0], changes[1]);
+                    let left = mul_add(self.g, at(1)?, of(0), both);
                     mul_add(self.g, at(0)?, of(1), left)
                 }
-                Prim::PowInt(n) => self.change_of_power(n, at(0)?, of(0)),
                 _ => return None,
             };
-            known.insert(id, change);
+            beyond.insert(id, change);
         }
-        known.get(&root).copied()
+        let last = beyond.get(&root).copied()?;
+        Some(self.whole_change(root, last, above, step))
+    }
+
+    /// s f' and what is beyond.
+    fn whole_change(&mut self, of: Id, beyond: Id, above: &Above, step: Step) -> Id {
+        let Some(&slope) = above.slopes.get(&of) else {
+            return beyond;
+        };
+        let size = scale(self.g, step.side, step.size);
+        mul_add(self.g, size, slope, beyond)
     }
 
     /// (a + Δ)ⁿ - aⁿ = Δ Σ aⁿ⁻¹⁻ᵏ (a + Δ)ᵏ

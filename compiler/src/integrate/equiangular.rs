@@ -25,8 +25,10 @@ impl Integrator<'_> {
     ///
     /// Kulla and Fajardo, "Importance sampling techniques for path tracing in participating media", 2012, for the map.
     pub(super) fn equiangular(&mut self, bowl: &Bowl, polynomials: &[Id], k: u32) -> Id {
-        let (least, ends) = self.least(bowl);
-        let value = self.over_the_angle(bowl, polynomials, k, &least, ends);
+        let (least, ends, whole) = self.least(bowl);
+        let sum = self.g.add(ends[0], ends[1]);
+        let (middle, reach) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, whole));
+        let value = self.over_the_angle(bowl, polynomials, k, &least, [middle, reach]);
         if polynomials.is_empty() {
             self.through_zero_of(bowl, value)
         } else {
@@ -51,17 +53,15 @@ impl Integrator<'_> {
         self.g.apply(Prim::Select, &[meets, all, value])
     }
 
-    /// The same between two angles, counted from the place of the least q.
+    /// The same between two angles, counted from the place of the least |q|: their mean, and half of their difference.
     pub(super) fn over_the_angle(
         &mut self,
         bowl: &Bowl,
         polynomials: &[Id],
         k: u32,
         least: &Least,
-        ends: [Id; 2],
+        [middle, reach]: [Id; 2],
     ) -> Id {
-        let (sum, difference) = (self.g.add(ends[0], ends[1]), self.g.sub(ends[1], ends[0]));
-        let (middle, reach) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, difference));
         let size = if bowl.is_sum_of_squares {
             // where D is 0 it is least, and its root has no derivative
             let floor = self.g.real(TINY);
@@ -126,13 +126,21 @@ impl Integrator<'_> {
         if_less(self.g, bowl.q.discriminant, zero, grown, value)
     }
 
-    /// The place of the least q in the interval, and ∫ dt/q from there to both ends.
-    fn least(&mut self, bowl: &Bowl) -> (Least, [Id; 2]) {
+    /// The place of the least |q| in the interval, ∫ dt/q from there to both ends, and between the ends. Between two zeros
+    /// that is the end that is nearer to one: there the integrand is greatest, and the angle is rounded least.
+    fn least(&mut self, bowl: &Bowl) -> (Least, [Id; 2], Id) {
         let q = bowl.q;
         let zero = self.g.real(0.0);
+        let sign = self.sign_of(bowl);
         let product = self.g.mul(q.slopes[0], q.slopes[1]);
-        let inside = self.g.apply(Prim::Less, &[product, zero]);
-        let first = self.g.apply(Prim::Less, &[q.ends[0], q.ends[1]]);
+        let mut inside = self.g.apply(Prim::Less, &[product, zero]);
+        if !bowl.is_sum_of_squares {
+            let curve = mul(self.g, sign, q.a);
+            let opens = self.g.apply(Prim::Less, &[zero, curve]);
+            inside = self.g.apply(Prim::And, &[inside, opens]);
+        }
+        let sizes = q.ends.map(|end| mul(self.g, sign, end));
+        let first = self.g.apply(Prim::Less, &sizes);
         let choose = |this: &mut Self, foot: Id, ends: [Id; 2]| {
             let end = this.g.apply(Prim::Select, &[first, ends[0], ends[1]]);
             this.g.apply(Prim::Select, &[inside, foot, end])
@@ -145,14 +153,12 @@ impl Integrator<'_> {
         let back = self.g.neg(whole);
         let offsets = self.offsets(bowl);
         let beside = [[zero, back], [whole, zero]];
-        let sign = self.sign_of(bowl);
         let size = mul(self.g, sign, depth);
         let angles = [0, 1].map(|k| {
             let s = offsets[k];
             let square_s = square(self.g, s);
             let p = mul(self.g, q.discriminant, square_s);
-            let end = mul(self.g, sign, q.ends[k]);
-            let quotient = self.angle_between(bowl, (p, size), [size, end]);
+            let quotient = self.angle_between(bowl, (p, size), [size, sizes[k]]);
             let quotient = mul(self.g, sign, quotient);
             let around = mul(self.g, s, quotient);
             choose(self, around, beside[k])
@@ -164,6 +170,7 @@ impl Integrator<'_> {
                 slope,
             },
             angles,
+            whole,
         )
     }
 }

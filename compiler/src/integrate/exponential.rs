@@ -167,7 +167,7 @@ impl Integrator<'_> {
         self.affine(multiple)
     }
 
-    /// Σ n phase, `None` of nothing.
+    /// Σ n phase, `None` of nothing. Slopes of phases may cancel: that of a sum is taken with its rests.
     fn combined(&mut self, phases: &[(Id, i32)]) -> Option<Affine> {
         let mut sum: Option<Id> = None;
         for &(phase, n) in phases {
@@ -177,13 +177,30 @@ impl Integrator<'_> {
                 Some(sum) => add(self.g, sum, one),
             });
         }
-        sum.map(|sum| self.affine(sum))
+        let sum = sum?;
+        let mut out = self.affine(sum);
+        if phases.len() > 1 {
+            let slope = self.slope(sum);
+            out.slope = self.constant_with_rests(slope);
+        }
+        Some(out)
     }
 
     fn sum_of(&mut self, waves: &[Wave]) -> Id {
+        let length = self.length_of_path();
+        if let &[
+            Wave {
+                scale: factor,
+                exponent: Some(e),
+                wave: None,
+            },
+        ] = waves
+        {
+            let value = self.of_exponential(e, length);
+            return scale(self.g, factor, value);
+        }
         let parts: Vec<Id> = waves.iter().map(|w| self.mean_of_wave(w)).collect();
         let sum = total(self.g, parts);
-        let length = self.length_of_path();
         mul(self.g, length, sum)
     }
 
@@ -241,19 +258,33 @@ impl Integrator<'_> {
     /// e^(α + |βh|) φ(-2|βh|): the greater end times a number in (0, 1]. One comparison chooses the end and the sign, so
     /// that the derivative is right where both ends are the same.
     pub(super) fn mean_of_exponential(&mut self, e: Affine) -> Id {
+        let (end, quotient) = self.exponential_from_greater_end(e);
+        let top = call(self.g, Prim::Exp, end);
+        mul(self.g, top, quotient)
+    }
+
+    /// The same times a factor which may be so large that the greater end alone is too small a number, or so small that it is
+    /// too large: the root of the end is multiplied twice.
+    fn of_exponential(&mut self, e: Affine, factor: Id) -> Id {
+        let (end, quotient) = self.exponential_from_greater_end(e);
+        let half = scale(self.g, 0.5, end);
+        let root = call(self.g, Prim::Exp, half);
+        let value = mul(self.g, factor, quotient);
+        let value = mul(self.g, value, root);
+        mul(self.g, value, root)
+    }
+
+    /// The greater exponent, and φ(-2|βh|) with what the exponent is rounded by.
+    fn exponential_from_greater_end(&mut self, e: Affine) -> (Id, Id) {
         let zero = self.g.real(0.0);
         let change = mul(self.g, e.slope, self.path.half);
         let back = self.g.neg(change);
         let size = if_less(self.g, change, zero, back, change);
         let place = self.greater_end(change);
         let end = self.pair_at(e.of, place);
-        let (top, twice) = (
-            call(self.g, Prim::Exp, end.value),
-            scale(self.g, -2.0, size),
-        );
+        let twice = scale(self.g, -2.0, size);
         let quotient = call(self.g, Prim::Exprel, twice);
-        let quotient = self.grown(quotient, end.rest);
-        mul(self.g, top, quotient)
+        (end.value, self.grown(quotient, end.rest))
     }
 
     /// The part of e^(α + w + i(γ + v)) φ(-2(w + i v)) that the wave is, w + i v = ±(β + iδ)h with w ≥ 0.

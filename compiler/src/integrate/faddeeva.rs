@@ -9,11 +9,16 @@
 use std::f64::consts::PI;
 
 use super::Integrator;
-use super::arithmetic::call;
+use super::arithmetic::{add, call, is_zero, square};
+use super::pair::sum_rest;
 use crate::ir::{Id, Prim};
 
 /// Terms of the approximation.
 const TERMS: usize = 32;
+/// ℓ: next to the best, √(32/√2) = 4.757, and not rounded in any format.
+const LENGTH: f64 = 4.75;
+/// How near to 0 the recurrence is taken.
+const NEAR_ZERO: f64 = 0.5;
 
 impl Integrator<'_> {
     /// (step u)ⁿ Sₙ of x + iy with y ≥ 0, n < count, each as real and imaginary part. With the step 1/2 it is
@@ -24,18 +29,28 @@ impl Integrator<'_> {
         step: Id,
         count: usize,
     ) -> Vec<[Id; 2]> {
-        let (length, coefficients) = weideman(TERMS);
-        let (twice, length) = (self.g.real(2.0 * length), self.g.real(length));
-        let (below, back) = (self.g.add(length, y), self.g.neg(x));
-        let above = self.g.sub(length, y);
+        let coefficients = weideman(LENGTH, TERMS);
+        let (twice, length) = (self.g.real(2.0 * LENGTH), self.g.real(LENGTH));
+        let (below, back) = (add(self.g, length, y), self.g.neg(x));
+        // ℓ - y by the rounded ℓ + y, which is known to be rounded by the rest
+        let above = self.g.sub(twice, below);
+        let rest = sum_rest(self.g, length, y, below);
         let top = self.g.apply(Prim::Complex, &[above, x]);
         let bottom = self.g.apply(Prim::Complex, &[below, back]);
         let one = self.g.real(1.0);
-        let u = self.g.div(one, bottom);
-        let ratio = self.g.mul(top, u);
+        let mut u = self.g.div(one, bottom);
+        let mut ratio = self.g.mul(top, u);
+        if !is_zero(self.g, rest) {
+            let part = self.g.mul(rest, u);
+            let (of_u, of_ratio) = (self.g.mul(part, u), self.g.mul(part, ratio));
+            u = self.g.sub(u, of_u);
+            let both = self.g.add(part, of_ratio);
+            ratio = self.g.sub(ratio, both);
+        }
         let taylor = self.taylor_of_polynomial(&coefficients, ratio, count);
         let ahead = self.g.mul(twice, u);
         let functions = self.family_of(&taylor, u, ahead);
+        let twice_step = add(self.g, step, step);
         let step = self.g.mul(step, u);
         let mut power = None;
         let mut out = Vec::with_capacity(count);
@@ -51,9 +66,40 @@ impl Integrator<'_> {
             }
             let value = power.map_or(sum, |p| self.g.mul(p, sum));
             power = Some(power.map_or(step, |p| self.g.mul(p, step)));
-            out.push([Prim::Re, Prim::Im].map(|part| call(self.g, part, value)));
+            out.push(value);
         }
-        out
+        self.beside_zero((x, y), twice_step, &mut out);
+        out.into_iter()
+            .map(|value| [Prim::Re, Prim::Im].map(|part| call(self.g, part, value)))
+            .collect()
+    }
+
+    /// From the third on members within [`NEAR_ZERO`] of 0 by the two before: 2 n iⁿerfc z = iⁿ⁻²erfc z - 2 z iⁿ⁻¹erfc z (NIST DLMF
+    /// 7.18.7), which is rounded half as much there.
+    fn beside_zero(&mut self, (x, y): (Id, Id), twice_step: Id, family: &mut [Id]) {
+        if family.len() < 3 {
+            return;
+        }
+        let back = self.g.neg(x);
+        let z = self.g.apply(Prim::Complex, &[y, back]);
+        let [squares, limit] = [square(self.g, x), self.g.real(NEAR_ZERO * NEAR_ZERO)];
+        let squares = self.g.apply(Prim::SquarePlus, &[y, squares]);
+        let is_near = self.g.apply(Prim::Less, &[squares, limit]);
+        let turn = self.g.mul(twice_step, z);
+        let half = self.g.real(0.5);
+        let rate = self.g.mul(twice_step, twice_step);
+        let rate = self.g.mul(half, rate);
+        for n in 2..family.len() {
+            let (first, second) = (
+                self.g.mul(rate, family[n - 2]),
+                self.g.mul(turn, family[n - 1]),
+            );
+            let sum = self.g.sub(first, second);
+            #[allow(clippy::cast_precision_loss, reason = "small counts")]
+            let part = self.g.real(1.0 / n as f64);
+            let value = self.g.mul(part, sum);
+            family[n] = self.g.apply(Prim::Select, &[is_near, value, family[n]]);
+        }
     }
 
     /// p⁽ʲ⁾/j! at a place, j < count, by repeated synthetic division.
@@ -111,12 +157,11 @@ impl Integrator<'_> {
     }
 }
 
-/// ℓ and the coefficients of p, from the constant on: aₙ = (1/4N) Σ e^(-t²) (ℓ² + t²) cos nθ over θ = kπ/2N, |k| < 2N,
-/// with t = ℓ tan(θ/2) and ℓ = √(N/√2).
-fn weideman(terms: usize) -> (f64, Vec<f64>) {
+/// The coefficients of p, from the constant on: aₙ = (1/4N) Σ e^(-t²) (ℓ² + t²) cos nθ over θ = kπ/2N, |k| < 2N,
+/// with t = ℓ tan(θ/2).
+fn weideman(length: f64, terms: usize) -> Vec<f64> {
     #[allow(clippy::cast_precision_loss, reason = "small counts")]
     let count = terms as f64;
-    let length = (count / std::f64::consts::SQRT_2).sqrt();
     let points = 2.0 * count;
     let mut out = vec![0.0; terms];
     let mut k = 1.0 - points;
@@ -131,5 +176,5 @@ fn weideman(terms: usize) -> (f64, Vec<f64>) {
         }
         k += 1.0;
     }
-    (length, out)
+    out
 }

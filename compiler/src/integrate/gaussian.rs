@@ -19,6 +19,8 @@ use crate::ir::{Id, Prim};
 pub const MAX_DEGREE_BESIDE_GAUSSIAN: u32 = 7;
 /// Half-width in u from which on the closed form takes over from an exponential of degree 1.
 const LEAST_WIDTH: f64 = 1e-7;
+/// Half-width in u from which on centre and width are taken from the ends: their difference would round the nearer end.
+const WIDE: f64 = 1.5;
 /// Widths beyond which a Gaussian counts as 0: e⁻⁴⁹ is 5e-22.
 const ENOUGH: f64 = 7.0;
 /// The same as [`LEAST_WIDTH`] beside polynomials, whose derivatives are divided by powers of it.
@@ -67,13 +69,18 @@ impl Integrator<'_> {
 
     /// Half-width of the interval in u, kept from 0, u' by t, and u at both ends.
     fn in_widths(&mut self, q: &Quadratic, least: f64) -> (Id, Id, [Id; 2]) {
+        let (width, rate) = self.rate_of_widths(q, least);
+        (width, rate, q.slopes.map(|b| self.g.div(b, rate)))
+    }
+
+    /// √a |h|, and √a, or where that is less the rate at which the half-width in u is the least.
+    pub(super) fn rate_of_widths(&mut self, q: &Quadratic, least: f64) -> (Id, Id) {
         let half = call(self.g, Prim::Abs, self.path.half);
         let root = call(self.g, Prim::Sqrt, q.a);
         let width = mul(self.g, root, half);
         let floor = self.g.real(least);
-        let wide = self.g.apply(Prim::Max, &[width, floor]);
-        let rate = self.g.div(wide, half);
-        (width, rate, q.slopes.map(|b| self.g.div(b, rate)))
+        let flat = self.g.div(floor, half);
+        (width, if_less(self.g, floor, width, root, flat))
     }
 
     /// |h| e^(-min q) mass(c, w)/w: mass is ∫ e^(-u²) from c - w to c + w over its greatest value. Of a long interval the
@@ -95,9 +102,10 @@ impl Integrator<'_> {
         let half = call(self.g, Prim::Abs, self.path.half);
         let own = mul(self.g, rate, half);
         let middle = self.g.div(q.b, rate);
+        let wide = self.g.real(WIDE);
         let (centre, width) = (
-            if_less(self.g, narrow, far, middle, centre),
-            if_less(self.g, narrow, far, own, width),
+            if_less(self.g, narrow, wide, middle, centre),
+            if_less(self.g, narrow, wide, own, width),
         );
         let mass = self.g.apply(Prim::GaussMassScaled, &[centre, width]);
         // where the centre is outside, the exponent goes one way: the end from which it falls

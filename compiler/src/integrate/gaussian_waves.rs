@@ -22,8 +22,9 @@ use crate::ir::{Id, Prim};
 /// Half-width of the interval in u that is taken at least: along a line on which the Gaussian does not change it
 /// changes the integrand by 1e-8.
 const LEAST_WIDTH: f64 = 1e-4;
-/// What exponent and phases change by together below which nodes take the product as it is.
-const CHANGE: f64 = 4.0;
+/// What exponent and phases change by together below which nodes take the product as it is: what both ends and the whole
+/// differ by cancels beside zeros of the product.
+const CHANGE: f64 = 16.0;
 
 /// The most that κ/2 counts as where it is not in an exponent: e⁻⁹⁰⁰ is 0.
 const MOST_SHIFT: f64 = 30.0;
@@ -59,11 +60,7 @@ impl Integrator<'_> {
         let negated = self.g.neg(exponent);
         let q = self.quadratic(negated);
         let half = call(self.g, Prim::Abs, self.path.half);
-        let root = call(self.g, Prim::Sqrt, q.a);
-        let width = mul(self.g, root, half);
-        let floor = self.g.real(LEAST_WIDTH);
-        let wide = self.g.apply(Prim::Max, &[width, floor]);
-        let rate = self.g.div(wide, half);
+        let (_, rate) = self.rate_of_widths(&q, LEAST_WIDTH);
         let rate = self.with_step(rate);
         let leaves = self.path.coordinates.iter().map(|c| c.leaf);
         let body = Body::new(self.g, &derivatives, leaves);
@@ -94,7 +91,9 @@ impl Integrator<'_> {
         #[allow(clippy::cast_precision_loss, reason = "a degree of at most 7")]
         let limit = CHANGE.max(degree as f64 + 2.0);
         let integrand = term.moving(self.g);
-        let near = self.local_gauss(integrand, nodes_for_exponential(limit, degree, NEAR));
+        let nodes = nodes_for_exponential(limit, degree, NEAR);
+        let greatest = self.greatest_place(&q);
+        let near = self.local_gauss_from(integrand, nodes, greatest);
         let size = self.change_of_waves(&q, half, &waves);
         let limit = self.g.real(limit);
         let value = if_less(self.g, limit, size, sum, near);
@@ -136,6 +135,13 @@ impl Integrator<'_> {
             rate,
             step: self.g.div(half, rate),
         }
+    }
+
+    /// t of the interval where q is least; an end where q has no curvature.
+    fn greatest_place(&mut self, q: &Quadratic) -> Id {
+        let [low, high] = [Prim::Min, Prim::Max].map(|p| self.g.apply(p, &self.path.ends));
+        let before = if_less(self.g, q.foot, high, q.foot, high);
+        if_less(self.g, low, q.foot, before, low)
     }
 
     fn constant_phase(&mut self) -> Affine {

@@ -16,7 +16,7 @@ use crate::ir::{Id, Prim};
 /// What the exponents and phases of a product may change by together where it is taken as it is.
 const CHANGE: f64 = 2.0;
 /// The same where there are only waves, the sum of which cancels beside a zero of the product.
-const CHANGE_OF_WAVES: f64 = 5.0;
+const CHANGE_OF_WAVES: f64 = 10.0;
 /// How much more a function whose singularities are π/2 away from the real line counts.
 const WEIGHT: f64 = 4.0;
 

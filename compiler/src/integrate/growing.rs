@@ -3,7 +3,7 @@
 //! e^(q), q = a s² + 2 b s + c with a > 0. In u = √a s + b/√a it is e^(u²) times a constant, of which Dawson's function
 //! D(u) = e^(-u²) ∫₀ᵘ e^(v²) dv gives the antiderivative: ∫ p e^(u²) du = e^(u²) Σ p⁽ⁿ⁾ D⁽ⁿ⁾/(2ⁿ n!), by repeated
 //! integration by parts, as d/du (e^(u²) D⁽ⁿ⁾) = -2 n e^(u²) D⁽ⁿ⁻¹⁾. Its values at both ends are far from one another where
-//! the exponent changes by more than the degree and 4; nodes elsewhere.
+//! the exponent changes by more than half the degree and 3; nodes elsewhere.
 
 use std::f64::consts::PI;
 
@@ -16,19 +16,17 @@ use crate::ir::{Id, Prim};
 
 /// Half-width of the interval in u that is taken at least: with less the exponent changes by its linear part alone.
 const LEAST_WIDTH: f64 = 1e-4;
-/// What the exponent changes by below which nodes take the integrand as it is, beside the degree.
-const CHANGE: f64 = 4.0;
+/// What the exponent changes by below which nodes take the integrand as it is, beside half the degree.
+const CHANGE: f64 = 3.0;
+/// As what change of a line that of a square counts.
+const BENT: f64 = 1.75;
 
 impl Integrator<'_> {
     /// ∫ p e^q where q opens up.
     pub(super) fn growing_gaussian(&mut self, exponent: Id, polynomials: &[Id], degree: u32) -> Id {
         let q = self.quadratic(exponent);
         let half = call(self.g, Prim::Abs, self.path.half);
-        let root = call(self.g, Prim::Sqrt, q.a);
-        let width = mul(self.g, root, half);
-        let floor = self.g.real(LEAST_WIDTH);
-        let wide = self.g.apply(Prim::Max, &[width, floor]);
-        let rate = self.g.div(wide, half);
+        let (_, rate) = self.rate_of_widths(&q, LEAST_WIDTH);
         let derivatives = self.derivatives(polynomials, degree);
         let leaves = self.path.coordinates.iter().map(|c| c.leaf);
         let body = Body::new(self.g, &derivatives, leaves);
@@ -48,8 +46,9 @@ impl Integrator<'_> {
         let integrand = polynomials
             .iter()
             .fold(factor, |product, &p| mul(self.g, product, p));
-        let limit = CHANGE + f64::from(degree);
-        let nodes = nodes_for_exponential(limit, degree as usize, NEAR);
+        let limit = CHANGE + 0.5 * f64::from(degree);
+        // e to a square has larger derivatives than e to a line that changes by as much
+        let nodes = nodes_for_exponential(BENT * limit, degree as usize, NEAR);
         let near = self.local_gauss(integrand, nodes);
         let change = self.change_of_exponent(&q, half);
         let limit = self.g.real(limit);

@@ -8,7 +8,7 @@
 use rustc_hash::FxHashMap;
 
 use super::Integrator;
-use super::arithmetic::{add, call, div, mul, mul_add, scale};
+use super::arithmetic::{add, call, div, mul, mul_add, scale, sub};
 use super::legendre::{Node, gauss_legendre};
 use super::pair::Pair;
 use super::path::Body;
@@ -37,12 +37,29 @@ pub(super) struct Local {
     /// Half the curvature, and the slope in the middle.
     pub(super) curve: Id,
     pub(super) slope: Id,
+    /// Where it is seen from, measured from the middle.
+    pub(super) from: Id,
 }
 
 impl Integrator<'_> {
     /// ∫ by Gauss-Legendre nodes, each by what the integrand changes by from the middle: Σ h wⱼ f(h xⱼ).
     pub(super) fn local_gauss(&mut self, root: Id, count: usize) -> Id {
         let mean = self.local_mean(root, count);
+        let length = self.length_of_path();
+        mul(self.g, length, mean)
+    }
+
+    /// The same, exponentials of degree 2 seen from another t than the middle: from where they are greatest what they change by is
+    /// rounded least where it counts.
+    pub(super) fn local_gauss_from(&mut self, root: Id, count: usize, place: Id) -> Id {
+        let Some(found) = self.locals_of(root) else {
+            return self.local_gauss(root, count);
+        };
+        let locals: Vec<Local> = found
+            .into_iter()
+            .map(|(id, kind)| self.local_from(id, kind, place))
+            .collect();
+        let mean = self.mean_of_locals(root, &locals, count);
         let length = self.length_of_path();
         mul(self.g, length, mean)
     }
@@ -78,6 +95,10 @@ impl Integrator<'_> {
         if let Some(mean) = self.mean_of_changes(root, &locals, count) {
             return mean;
         }
+        self.mean_of_locals(root, &locals, count)
+    }
+
+    fn mean_of_locals(&mut self, root: Id, locals: &[Local], count: usize) -> Id {
         let body = Body::new(self.g, &[root], locals.iter().map(|l| l.id));
         let mut sum = self.g.real(0.0);
         for Node { place, weight } in gauss_legendre(count) {
@@ -108,11 +129,15 @@ impl Integrator<'_> {
             if !seen.insert(id) || !self.moves(id) {
                 continue;
             }
+            let node = self.g.node(id).clone();
             if matches!(self.degree(id), Some(1 | 2)) {
-                out.insert(id, Kind::Polynomial);
+                if self.is_product_of_lines(id) {
+                    stack.extend(node.args);
+                } else {
+                    out.insert(id, Kind::Polynomial);
+                }
                 continue;
             }
-            let node = self.g.node(id).clone();
             let Op::Apply(prim) = node.op else {
                 return None;
             };
@@ -127,6 +152,28 @@ impl Integrator<'_> {
         let mut out: Vec<(Id, Kind)> = out.into_iter().collect();
         out.sort_unstable_by_key(|l| l.0);
         Some(out)
+    }
+
+    /// Whether a polynomial of degree 2 is a product of two of degree 1, or a multiple of one: beside a zero of theirs its value by
+    /// the curvature would cancel.
+    fn is_product_of_lines(&mut self, id: Id) -> bool {
+        let node = self.g.node(id).clone();
+        if self.degree(id) != Some(2) {
+            return false;
+        }
+        match (node.op, node.args.as_slice()) {
+            (Op::Apply(Prim::Mul), &[a, b]) => {
+                let of = [a, b].map(|x| if self.moves(x) { self.degree(x) } else { None });
+                match of {
+                    [Some(1), Some(1)] => true,
+                    [None, _] => self.is_product_of_lines(b),
+                    [_, None] => self.is_product_of_lines(a),
+                    _ => false,
+                }
+            }
+            (Op::Apply(Prim::PowInt(2)), &[a]) => self.degree(a) == Some(1),
+            _ => false,
+        }
     }
 
     fn local(&mut self, id: Id, kind: Kind) -> Local {
@@ -156,6 +203,27 @@ impl Integrator<'_> {
             values,
             curve: scale(self.g, 0.5, curve),
             slope,
+            from: self.g.real(0.0),
+        }
+    }
+
+    /// An exponential of degree 2 seen from a t, all else from the middle.
+    fn local_from(&mut self, id: Id, kind: Kind, place: Id) -> Local {
+        let out = self.local(id, kind);
+        let of = self.g.node(id).args.first().copied().unwrap_or(id);
+        if !matches!(out.kind, Kind::Exponential) || self.degree(of) != Some(2) {
+            return out;
+        }
+        let there = self.pair_at(of, place);
+        let slope = self.slope(of);
+        let slope = self.at_place(&[slope], place)[0];
+        let from = sub(self.g, place, self.path.middle);
+        Local {
+            middle: there,
+            values: [call(self.g, Prim::Exp, there.value); 2],
+            slope,
+            from: sub(self.g, from, self.path.middle_low),
+            ..out
         }
     }
 
@@ -176,6 +244,7 @@ impl Integrator<'_> {
             return mul_add(g, along, cosine, back);
         }
         let s = scale(g, side, s);
+        let s = sub(g, s, of.from);
         let rate = mul_add(g, s, of.curve, of.slope);
         if matches!(of.kind, Kind::Polynomial) {
             return mul_add(g, s, rate, of.values[0]);

@@ -10,6 +10,7 @@ mod affine;
 mod algebraic;
 mod arithmetic;
 mod bessel;
+mod boundary;
 mod bowl;
 mod breaks;
 mod changes;

@@ -129,8 +129,25 @@ impl Pair {
         }
     }
 
+    /// A multiple by a power of two.
+    pub fn multiple(self, g: &mut Graph, factor: f64) -> Self {
+        Self {
+            value: scale(g, factor, self.value),
+            rest: scale(g, factor, self.rest),
+        }
+    }
+
+    /// A part of it: a quotient by a whole number.
+    pub fn part(self, g: &mut Graph, count: u32) -> Self {
+        if count.is_power_of_two() {
+            return self.multiple(g, 1.0 / f64::from(count));
+        }
+        let count = g.real(f64::from(count));
+        self.over(g, count)
+    }
+
     /// A quotient by a number that is not rounded.
-    fn over(self, g: &mut Graph, divisor: Id) -> Self {
+    pub fn over(self, g: &mut Graph, divisor: Id) -> Self {
         let value = div(g, self.value, divisor);
         let own = product_rest(g, value, divisor, self.value);
         let left = super::arithmetic::sub(g, self.rest, own);
@@ -173,7 +190,7 @@ impl Integrator<'_> {
     }
 
     /// A polynomial of coordinates that are pairs. Without a rest where it has operations that are not told apart.
-    fn pair(&mut self, root: Id, values: &[(Id, Pair)]) -> Pair {
+    pub(super) fn pair(&mut self, root: Id, values: &[(Id, Pair)]) -> Pair {
         if let Some(pair) = self.try_pair(root, values) {
             return pair;
         }

@@ -78,7 +78,12 @@ impl Integrator<'_> {
         let may_cancel = self.may_cancel(id);
         let slope = self.slope(id);
         let curvature = self.slope(slope);
-        let (slope, curvature) = (self.at_middle(slope), self.at_middle(curvature));
+        let slope = self.at_middle(slope);
+        let curvature = if may_cancel {
+            self.constant_with_rests(curvature)
+        } else {
+            self.at_middle(curvature)
+        };
         let (b, a) = (scale(self.g, 0.5, slope), scale(self.g, 0.5, curvature));
         let c = if may_cancel {
             self.pair_in_middle(id).total(self.g)
@@ -122,6 +127,15 @@ impl Integrator<'_> {
             slopes: self.at_ends(rate).map(|s| scale(self.g, 0.5, s)),
             foot,
             foot_low,
+        }
+    }
+
+    /// What is constant along the path, with the rests of its operations: a difference of squares of slopes may cancel.
+    pub(super) fn constant_with_rests(&mut self, id: Id) -> Id {
+        let origin = self.path.pairs_at_origin();
+        match self.whole_pair(id, &origin) {
+            Some(pair) => pair.total(self.g),
+            None => self.at_middle(id),
         }
     }
 

@@ -221,7 +221,10 @@ impl Integrator<'_> {
             _ => {
                 let (least, ends) = self.least_to_infinity(&bowl);
                 let k = twice.unsigned_abs().saturating_sub(2);
-                let value = self.over_the_angle(&bowl, polynomials, k, &least, ends);
+                let (sum, difference) =
+                    (add(self.g, ends[0], ends[1]), sub(self.g, ends[1], ends[0]));
+                let (middle, reach) = (scale(self.g, 0.5, sum), scale(self.g, 0.5, difference));
+                let value = self.over_the_angle(&bowl, polynomials, k, &least, [middle, reach]);
                 (value, Rule::Equiangular)
             }
         };

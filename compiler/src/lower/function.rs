@@ -7,6 +7,7 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::body::Body;
+use super::branches::Branches;
 use super::factors::gathered;
 use super::lattice::Cells;
 use super::plain::plain;
@@ -244,13 +245,9 @@ impl Lowering<'_, '_, '_> {
 
     fn schedule(&mut self, roots: &[Id]) -> Result<(), LowerError> {
         let graph = self.graph;
-        if !graph.has_loops() {
-            for id in graph.ids() {
-                if self.live[id.index()] {
-                    self.compute(id)?;
-                }
-            }
-            return Ok(());
+        if !graph.has_loops() && self.cells.is_empty() {
+            let branches = Branches::find(graph, roots, &self.live);
+            return self.with_branches(&branches, &branches.top);
         }
         let schedule = Schedule::new(graph, roots);
         self.block(&schedule, &schedule.top)
@@ -271,15 +268,19 @@ impl Lowering<'_, '_, '_> {
         if self.values[id.index()].is_some() || self.scaled[id.index()] {
             return Ok(());
         }
-        let node = self.graph.node(id);
         self.body.at(self.graph.span(id));
         let value = match self.corner(id)? {
             Some(value) => value,
-            None => self.node(node)?,
+            None => self.node(self.graph.node(id))?,
         };
-        self.values[id.index()] = Some(value);
-        self.name(id, node, value);
+        self.keep_value(id, value);
         Ok(())
+    }
+
+    /// Remembers the value of an operation, under its name where it has one.
+    pub(super) fn keep_value(&mut self, id: Id, value: Handle<Expression>) {
+        self.values[id.index()] = Some(value);
+        self.name(id, self.graph.node(id), value);
     }
 
     /// Names a value by the user's name, or where the text would nest too deep.

@@ -18,6 +18,11 @@ pub(super) struct Cells {
 }
 
 impl Cells {
+    /// Whether there are none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.digits.is_empty()
+    }
+
     /// All that there are, where every corner of a cell is wanted, and its hash for nothing else; what that makes
     /// unnecessary is marked.
     pub(super) fn find(graph: &Graph, roots: &[Id], live: &[bool], skipped: &mut [bool]) -> Self {

@@ -2,6 +2,7 @@
 
 mod beyond;
 mod body;
+mod branches;
 mod defined;
 mod exactness;
 mod factors;
