@@ -396,7 +396,7 @@ fn without_first_look(template: &str) -> String {
     }
     put(
         "sight_of",
-        Some("return Sight(vec3f(), true, jet.value, Verdict(), view.pixel * vec2f(1.0));"),
+        Some("return Sight(vec4f(), true, jet.value, Verdict(), view.pixel * vec2f(1.0));"),
     );
     text
 }

@@ -343,5 +343,7 @@ fn shade(pixel: vec2f) -> vec4f {
         }
         at += sight.to_zero;
     }
-    return colour_of(sight, pixel);
+    let seen = colour_of(sight, pixel);
+    // opaque on paper, whatever was rounded
+    return vec4f(seen.rgb, select(1.0, seen.a, settings.backdrop == 1u));
 }
