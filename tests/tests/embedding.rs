@@ -339,6 +339,6 @@ fn emitted_functions_are_as_short_as_written_ones() {
     let page = template
         .replace("TABLE\n", &table)
         .replace("SHARES\n", &shares())
-        .replace("TEXTS\n", &(texts + &careful_texts).trim_start());
+        .replace("TEXTS\n", (texts + &careful_texts).trim_start());
     check("beside.md", &page);
 }

@@ -5,6 +5,8 @@
 //! E. Hairer, S. Nørsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, I.8). They are not tight, but
 //! they hold for each point of the box, which no number of samples tells.
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::ir::{Graph, Id, Node, Op, Prim, Ty};
 
 /// Bounds of f in a box.
@@ -110,9 +112,9 @@ fn slopes(prim: Prim, u: f64) -> Option<[f64; 3]> {
         Prim::Sinh => Some([u.sinh(), u.cosh(), u.sinh()]),
         Prim::Cosh => Some([u.cosh(), u.sinh(), u.cosh()]),
         // 4/(3√3) at tanh² = 1/3
-        Prim::Tanh => Some([u.min(1.0), 1.0, 0.769_800_358_919_501_1]),
+        Prim::Tanh => Some([u.min(1.0), 1.0, 0.769_800_358_919_501]),
         // 3√3/8 at 1/√3
-        Prim::Atan => Some([u.min(1.570_796_326_794_896_7), 1.0, 0.649_519_052_838_329]),
+        Prim::Atan => Some([u.min(FRAC_PI_2), 1.0, 0.649_519_052_838_329]),
         // √(2/e) at 1/√2
         Prim::Gauss => Some([1.0, 0.857_763_884_960_706_8, 2.0]),
         // half the integral of e^{iux} over u from -1 to 1

@@ -88,7 +88,7 @@ pub enum Output {
     Re(usize),
     /// Imaginary part of a complex node.
     Im(usize),
-    /// The power of two that complex nodes are divided by, as a real: see [`super::beyond`].
+    /// The power of two that complex nodes are divided by, as a real (`lower::beyond`).
     Exponent(JetNodes),
     /// The first of these nodes, divided by that power of the others.
     Scaled(usize, JetNodes),

@@ -3,7 +3,7 @@
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::process::{Child, Command, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
 use pullback_compiler::table;
@@ -160,10 +160,7 @@ fn wait_for_all<'a>(
 
 fn next_line(lines: &Receiver<(usize, String)>, end: Instant) -> Option<(usize, String)> {
     let rest = end.saturating_duration_since(Instant::now());
-    match lines.recv_timeout(rest) {
-        Ok(line) => Some(line),
-        Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => None,
-    }
+    lines.recv_timeout(rest).ok()
 }
 
 fn seconds(line: &str) -> Result<f64, String> {
