@@ -151,12 +151,14 @@ pub fn by_textbook(all: &[Found]) -> String {
     out
 }
 
-/// The rays whose error is beyond the bound and as many roundings of their numbers, worst first.
+/// The rays whose error is beyond the bound and as many roundings of their numbers, worst first, and those from anywhere without a number.
 #[must_use]
 pub fn unexplained(found: &Found, roundings: f64, count: usize) -> String {
+    let none = found.outcomes.iter().filter(|o| !o.found.is_finite());
     let mut bad: Vec<&Outcome> = found
         .at(Distance::Near)
-        .filter(|o| !o.is_within(roundings))
+        .filter(|o| o.found.is_finite() && !o.is_within(roundings))
+        .chain(none)
         .collect();
     bad.sort_by(|a, b| b.error.total_cmp(&a.error));
     let mut out = format!("{}: {} rays\n", found.class.formula, bad.len());
