@@ -295,6 +295,18 @@ fn wrong_tries_are_refused() {
 }
 
 #[test]
+fn the_reference_is_no_adapter_to_measure() {
+    let folder = tempfile::tempdir().unwrap();
+    let words = ["measure", "x y", "--adapter", "reference"];
+    let (code, _, errors) = pullback(folder.path(), &words);
+    assert_eq!(code, 2, "{errors}");
+    assert!(
+        errors.contains("what every choice is measured against"),
+        "{errors}"
+    );
+}
+
+#[test]
 fn an_adapter_that_is_lost_in_the_middle_leaves_what_was_found() {
     let source = "f(x, y) = sin(3x y)\nshow levels(f)";
     let program = pullback_compiler::compile(source).program.unwrap();

@@ -16,7 +16,7 @@ use pullback_compiler::SettingValue;
 use pullback_compiler::lower::Tier;
 use pullback_runtime::measure::{self, Choice, Job, Report};
 use pullback_runtime::render::MAX_SAMPLES;
-use pullback_runtime::{Gpu, Size, atomic_file, fill_in_scale};
+use pullback_runtime::{AdapterChoice, Gpu, Size, atomic_file, fill_in_scale};
 
 use super::failure::Failure;
 use super::place::Computer;
@@ -91,6 +91,12 @@ struct Findings<'a> {
 
 /// Measures the choices of one picture, or of several.
 pub(super) fn run(arguments: &MeasureArguments, console: &Console) -> Result<(), Failure> {
+    if arguments.device.adapter == AdapterChoice::Named("reference".to_owned()) {
+        return Err(Failure::usage_hint(
+            "the f64 reference is what every choice is measured against",
+            "leave --adapter out, or name the graphics adapter whose pictures are to be measured",
+        ));
+    }
     let gpu = super::open(&arguments.device.adapter, console)?;
     if let [input] = arguments.inputs.as_slice() {
         return one(arguments, input, &gpu, console);
