@@ -4,7 +4,7 @@ use crate::Size;
 use crate::executor::Window;
 
 /// Side of a part in pixels.
-const SIDE: u32 = 32;
+pub(super) const SIDE: u32 = 32;
 /// Black pixels between parts: more than the filters of FLIP reach.
 const GAP: u32 = 12;
 

@@ -1,5 +1,6 @@
 //! Which choices are worth taking.
 
+use super::layout::SIDE;
 use super::{Row, SEEN, Time};
 
 /// What a user should take, by place in the rows.
@@ -11,8 +12,8 @@ pub struct Advice {
     pub half: Option<usize>,
 }
 
-/// Pixels of which 99.9 % means something.
-const ENOUGH: u64 = 1000;
+/// Pixels of which 99.9 % means something: those of eight parts of the picture, as one may show its background alone.
+const ENOUGH: u64 = 8 * (SIDE as u64) * (SIDE as u64);
 
 /// Whether the truth is known at enough of a picture's pixels to say what cannot be seen.
 pub(super) fn is_enough([known, all]: [u64; 2]) -> bool {
