@@ -29,7 +29,7 @@ pub fn can_decorate(gpu: &Gpu) -> bool {
         && features.contains(wgpu::Features::PASSTHROUGH_SHADERS)
 }
 
-/// Loads a module decorated: past wgpu, which would write SPIR-V without decorations. The bindings of each group must be
+/// Loads a module of ours, whose loops end, decorated: past wgpu, which would write SPIR-V without decorations. The bindings of each group must be
 /// numbered from 0 without gaps, and pipelines need explicit layouts.
 ///
 /// # Errors
@@ -54,9 +54,9 @@ pub fn load(gpu: &Gpu, module: &Module, info: &ModuleInfo) -> Result<wgpu::Shade
             spirv: Some(Cow::Owned(words)),
             ..Default::default()
         };
-        // SAFETY: the words are naga's own output for a module that it has validated, with its checks of bounds and of
-        // endless loops, as wgpu has it written; the decorations that were added restrict the order of roundings and
-        // touch neither memory nor control flow.
+        // SAFETY: the words are naga's own output for a module that it has validated, with its checks of bounds, as wgpu has it
+        // written, and the loops of our modules end (`shader::CHECKS`); the decorations that were added restrict the order of
+        // roundings and touch neither memory nor control flow.
         #[allow(unsafe_code)]
         unsafe {
             gpu.device().create_shader_module_passthrough(descriptor)
@@ -64,7 +64,7 @@ pub fn load(gpu: &Gpu, module: &Module, info: &ModuleInfo) -> Result<wgpu::Shade
     })
 }
 
-/// What naga writes with every check.
+/// What naga writes with the checks of [`CHECKS`].
 fn write(module: &Module, info: &ModuleInfo) -> Result<Vec<u32>, String> {
     let restricted = BoundsCheckPolicy::Restrict;
     let options = spv::Options {

@@ -53,7 +53,7 @@ impl Kernel {
     pub fn new(gpu: &Gpu, wgsl: &str, contraction: Contraction) -> Result<Self, Error> {
         let (module, info) = parse(wgsl)?;
         let shader = match contraction {
-            Contraction::Allowed => shader::plain(gpu, module)?,
+            Contraction::Allowed => shader::checked(gpu, module)?,
             Contraction::Forbidden => decorate::load(gpu, &module, &info)?,
         };
         let device = gpu.device();

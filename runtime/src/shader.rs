@@ -17,7 +17,7 @@ pub(crate) const CHECKS: ShaderRuntimeChecks = ShaderRuntimeChecks {
     ..ShaderRuntimeChecks::checked()
 };
 
-/// Hands a validated module to the device, its arithmetic decorated where the tier's exact steps need that.
+/// Hands a validated module of ours, whose loops end, to the device, its arithmetic decorated where the tier's exact steps need that.
 ///
 /// # Errors
 /// The device's, and [`Error::Invalid`] where it takes no decorated modules.

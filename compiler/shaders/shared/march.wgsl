@@ -2,9 +2,9 @@
 //
 // The ray is sampled at equal steps, by values alone, and walked as long as they stay between the same two levels. Between two
 // samples the levels are those that lie between their values. Where a sample is nearer to a level than both its neighbours,
-// and so near that f may reach it in between, its extremum is looked for, too; where f bends little (search.wgsl), wherever there may be one.
-// Where f ceases to be defined within a
-// step, the step ends there. What is looked for within a step is one level after the other.
+// and so near that f may reach it in between, its extremum is looked for, too; where f bends little
+// (search.wgsl), wherever there may be one. Where f ceases to be defined within a step, the step ends there. What is
+// looked for within a step is one level after the other.
 
 // The levels lowest + k spacing, 0 ≤ k < count.
 struct Family {
