@@ -76,6 +76,14 @@ fn real_sum_rest(a: f32, b: f32, s: f32) -> f32 {
     return select(0.0, rest, is_finite(rest));
 }
 
+/// a b - p exactly, where p is near the product and nothing underflows; 0 where that is no number.
+fn real_product_rest(a: f32, b: f32, p: f32) -> f32 {
+    let zero = hidden_zero_of(a, b);
+    let product = two_product(opaque(a, zero), opaque(b, zero), zero);
+    let rest = opaque(product.x - p, zero) + product.y;
+    return select(0.0, rest, is_finite(rest));
+}
+
 /// a b + c - s exactly, where s is near that; 0 where that is no number.
 fn real_mul_add_rest(a: f32, b: f32, c: f32, s: f32) -> f32 {
     let zero = hidden_zero_of(a, b);

@@ -57,6 +57,11 @@ fn real_sum_rest(a: real, b: real, s: real) -> real {
     return num(0.0);
 }
 
+/// The same of a b.
+fn real_product_rest(a: real, b: real, p: real) -> real {
+    return num(0.0);
+}
+
 /// The same of a b + c.
 fn real_mul_add_rest(a: real, b: real, c: real, s: real) -> real {
     return num(0.0);

@@ -71,7 +71,7 @@ impl<'a> Builder<'a> {
             }
             return (builtin.build)(self, &values, span);
         }
-        let row = table::by_name(name);
+        let row = table::by_name(name).or_else(|| self.rest_of_rounding(name));
         let is_primitive = row.is_some_and(|row| row.typing.arity() == values.len());
         if let Some(definitions) = library::by_name(name)
             && !is_primitive
@@ -83,6 +83,16 @@ impl<'a> Builder<'a> {
             // unknown functions have been reported by the pass over names
             None => Value::Error,
         }
+    }
+
+    /// What the library writes `_sum_rest(a, b, s)` and `_product_rest(a, b, p)`.
+    fn rest_of_rounding(&self, name: &str) -> Option<&'static table::Row> {
+        let prim = match name {
+            "_sum_rest" => Prim::SumRest,
+            "_product_rest" => Prim::ProductRest,
+            _ => return None,
+        };
+        (self.source == Source::Library).then(|| table::row(prim))
     }
 
     fn call_primitive(&mut self, prim: Prim, values: &[Value], span: Span) -> Value {

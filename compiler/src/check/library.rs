@@ -41,6 +41,7 @@ const SOURCE: &str = concat!(
     include_str!("library/distance.pull"),
     include_str!("library/noise.pull"),
     include_str!("library/light.pull"),
+    include_str!("library/special/pair.pull"),
     include_str!("library/special/error.pull"),
     include_str!("library/special/lambert.pull"),
     include_str!("library/special/zeta.pull"),

@@ -144,6 +144,8 @@ pub enum Prim {
     SumRest,
     /// a b + c - s: by how much s, which is about that, is rounded.
     MulAddRest,
+    /// a b - p: by how much p, which is about their product, is rounded.
+    ProductRest,
     /// sin x - s: by how much s, which is about that, is rounded.
     SineRest,
     /// cos x - s: by how much s, which is about that, is rounded.

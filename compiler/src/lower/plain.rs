@@ -97,7 +97,7 @@ fn rewritten(g: &mut Graph, node: &Node, args: &[Id]) -> Option<Id> {
 fn is_rest(prim: Prim) -> bool {
     matches!(
         prim,
-        Prim::SumRest | Prim::MulAddRest | Prim::SineRest | Prim::CosineRest
+        Prim::SumRest | Prim::MulAddRest | Prim::ProductRest | Prim::SineRest | Prim::CosineRest
     )
 }
 

@@ -156,6 +156,13 @@ pub fn mul_add_rest([a, b, c]: [f64; 3], s: f64) -> f64 {
     if rest.is_finite() { rest } else { 0.0 }
 }
 
+/// a b - p exactly, where p is near the product, 0 where that is no number (Dekker 1971).
+pub fn product_rest(a: f64, b: f64, p: f64) -> f64 {
+    let (product, low) = super::complex::two_product(a, b);
+    let rest = (product - p) + low;
+    if rest.is_finite() { rest } else { 0.0 }
+}
+
 /// √x, NaN below 0.
 pub fn sqrt(x: f64) -> f64 {
     x.sqrt()

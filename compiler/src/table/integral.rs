@@ -298,7 +298,7 @@ fn masses() -> [Row; 4] {
 }
 
 /// Places on a line.
-fn places() -> [Row; 6] {
+fn places() -> [Row; 7] {
     [
         Row {
             prim: Prim::MulAdd,
@@ -346,6 +346,21 @@ fn places() -> [Row; 6] {
             gpu: Gpu::Library("real_mul_add_rest", None),
             gpu_complex: "",
             cost: weight(11),
+        },
+        Row {
+            prim: Prim::ProductRest,
+            mnemonic: "product_rest",
+            names: &[],
+            usage: "",
+            doc: "a b - p exactly, where p is the rounded product of a and b; 0 where that is no number: locally constant. On \
+                  every adapter, for functions that are written in the language",
+            typing: Typing::Real(3),
+            real: Some(|a| real::product_rest(a[0], a[1], a[2])),
+            complex: None,
+            derivative: Derivative::Zero,
+            gpu: Gpu::Library("real_product_rest", None),
+            gpu_complex: "",
+            cost: weight(12),
         },
         wave_rest(
             Prim::SineRest,
