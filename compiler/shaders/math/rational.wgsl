@@ -87,10 +87,9 @@ fn real_product_rest(a: f32, b: f32, p: f32) -> f32 {
 /// a b + c - s exactly, where s is near that; 0 where that is no number.
 fn real_mul_add_rest(a: f32, b: f32, c: f32, s: f32) -> f32 {
     let zero = hidden_zero_of(a, b);
-    let product = opaque(a * b, zero);
-    let low = fma(a, b, -product);
-    let sum = two_sum(product, opaque(c, zero), zero);
-    let rest = opaque(sum.x - s, zero) + (sum.y + low);
+    let product = two_product(opaque(a, zero), opaque(b, zero), zero);
+    let sum = two_sum(product.x, opaque(c, zero), zero);
+    let rest = opaque(sum.x - s, zero) + (sum.y + product.y);
     return select(0.0, rest, is_finite(rest));
 }
 

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use pullback_runtime::{AdapterChoice, Error, Gpu};
 use pullback_tests::marches::densities::{DENSITIES, Density};
-use pullback_tests::marches::{FRAME, Measured, Plan, Rival, measure};
+use pullback_tests::marches::{FLOOR, FRAME, Measured, Plan, Rival, fineness, measure};
 
 /// The marks around the table in the document.
 const BEGIN: &str = concat!(
@@ -32,7 +32,7 @@ struct Options {
     #[arg(long, default_value = "10", value_parser = ["5", "10", "20", "40"])]
     stride: String,
     /// March and Gauss quadrature need not be better than this part of the integral of |f|
-    #[arg(long, default_value_t = 1e-5)]
+    #[arg(long, default_value_t = FLOOR)]
     floor: f64,
     /// Seconds of timed turns of a density
     #[arg(long, default_value_t = 2.0)]
@@ -65,8 +65,8 @@ fn run(options: &Options) -> Result<(), Error> {
          | density | formula | error | time, ms | steps | march | nodes | Gauss |\n\
          | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         gpu.adapter().name,
-        FRAME.width,
-        FRAME.height
+        fineness(&gpu) * FRAME.width,
+        fineness(&gpu) * FRAME.height
     );
     print!("{table}");
     for density in DENSITIES.iter().filter(|d| d.name.contains(&options.only)) {

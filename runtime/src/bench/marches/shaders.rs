@@ -49,11 +49,11 @@ impl Method {
 pub fn module(
     formula: &Formula,
     method: Method,
-    stride: u32,
+    stride: f64,
 ) -> Result<(Module, ModuleInfo), Error> {
     let (integral, order) = method.text();
     let text = format!(
-        "const STRIDE: f32 = {stride}.0;\nconst ORDER: u32 = {order}u;\n{}{integral}",
+        "const STRIDE: f32 = {stride:?};\nconst ORDER: u32 = {order}u;\n{}{integral}",
         include_str!("rays.wgsl")
     );
     numbers_of_pixels(&text, formula, Precision::Accurate)
