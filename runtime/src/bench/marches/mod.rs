@@ -199,7 +199,7 @@ fn staged(
         pipeline: Pipeline::Compute,
     };
     let canvas = Canvas::new(gpu, &frame)?;
-    let (module, info) = module(formula, method, stride)?;
+    let (module, info) = module(gpu, formula, method, stride)?;
     let stage = canvas.stage(&module, &info)?;
     Ok((canvas, stage))
 }

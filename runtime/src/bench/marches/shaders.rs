@@ -6,8 +6,9 @@ use pullback_compiler::formula::Formula;
 use pullback_compiler::integrate::gauss_legendre;
 use pullback_compiler::lower::Precision;
 
-use crate::Error;
 use crate::bench::wgsl::numbers_of_pixels;
+use crate::capabilities::Capabilities;
+use crate::{Error, Gpu};
 
 /// How an integral is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +48,7 @@ impl Method {
 /// # Errors
 /// The formula is no density.
 pub fn module(
+    gpu: &Gpu,
     formula: &Formula,
     method: Method,
     stride: f64,
@@ -56,5 +58,9 @@ pub fn module(
         "const STRIDE: f32 = {stride:?};\nconst ORDER: u32 = {order}u;\n{}{integral}",
         include_str!("rays.wgsl")
     );
-    numbers_of_pixels(&text, formula, Precision::Accurate)
+    numbers_of_pixels(
+        &text,
+        formula,
+        Capabilities::tier(gpu, Precision::Accurate)?,
+    )
 }
