@@ -402,6 +402,9 @@ impl Lowering<'_, '_, '_> {
         match table::row(prim).gpu {
             Gpu::Binary(op) => self.operator(op, args[0], args[1]),
             Gpu::Unary(op) => Ok(self.unary(op, args[0])),
+            Gpu::Builtin(_) if prim == Prim::MulAdd && self.is_split_place(node) => {
+                self.library(PLACE, args.to_vec())
+            }
             Gpu::Builtin(fun) => self.builtin(fun, &args),
             Gpu::Library(_, Some(fun)) if self.precision == Precision::Fast => {
                 Ok(self.math(fun, &args))
@@ -431,6 +434,13 @@ impl Lowering<'_, '_, '_> {
     /// Which member of its family an operation is.
     fn order(&mut self, prim: Prim) -> Option<Handle<Expression>> {
         prim.order().map(|n| self.integer(n.into()))
+    }
+
+    /// Whether a sum is a place o + t d on a ray, whose product is rounded on its own where `fma` is not one operation. Elsewhere
+    /// the product is small beside what it is added to.
+    fn is_split_place(&self, node: &Node) -> bool {
+        let is_given = |&id: &Id| is_given(self.graph, id);
+        self.linker.offers(PLACE) && node.args[1..].iter().all(is_given)
     }
 
     fn is_quotient(&self, id: Id) -> bool {
@@ -693,4 +703,21 @@ fn missing_form(name: &str) -> &'static str {
                 || matches!(row.gpu, Gpu::Library(own, _) | Gpu::Family(own) if own == name)
         })
         .map_or("a library function", |row| row.usage)
+}
+
+/// What stands in for `fma` at places, in libraries for adapters that round it twice.
+const PLACE: &str = "real_place";
+
+/// Whether a number is an argument, or a multiple of one, or either beside a constant.
+fn is_given(graph: &Graph, id: Id) -> bool {
+    let node = graph.node(id);
+    match (node.op, node.args.as_slice()) {
+        (Op::Input(_), _) => true,
+        (Op::Apply(Prim::Neg), &[a]) => is_given(graph, a),
+        (Op::Apply(Prim::Mul | Prim::Add | Prim::Sub), &[a, b]) => {
+            let is_known = |id| graph.as_real(id).is_some();
+            is_known(a) && is_given(graph, b) || is_known(b) && is_given(graph, a)
+        }
+        _ => false,
+    }
 }
