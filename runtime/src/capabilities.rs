@@ -194,10 +194,15 @@ impl Capabilities {
             ),
         };
         match precision {
-            Precision::Fast | Precision::Accurate => Ok(precision.into()),
+            Precision::Fast => Ok(precision.into()),
+            // no software adapter that was tried rounds it once, and where one does, steps are as right
+            Precision::Accurate => Ok(Tier {
+                splits_fma: gpu.adapter().is_software(),
+                ..precision.into()
+            }),
             Precision::Extended => Ok(Tier {
-                precision,
                 exactness: Self::of(gpu)?.extended().map_err(refused)?,
+                ..precision.into()
             }),
             Precision::Double => {
                 Self::of(gpu)?.double().map_err(refused)?;

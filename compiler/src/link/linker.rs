@@ -107,6 +107,12 @@ impl<'a> Linker<'a> {
         Ok(())
     }
 
+    /// Whether one of the sources has a function of this name.
+    #[must_use]
+    pub fn offers(&self, name: &str) -> bool {
+        self.by_name.contains_key(name)
+    }
+
     /// The function of this name in the module that is being built, copied or generated with all that it calls.
     ///
     /// # Errors

@@ -95,6 +95,8 @@ const SHARED: &str = concat!(
     include_str!("../../shaders/shared/glow.wgsl"),
 );
 
+const SPLIT: &str = include_str!("../../shaders/math/split_fma.wgsl");
+
 const ENTRY: &str = include_str!("../../shaders/shared/entry.wgsl");
 
 /// The modules that every scene is linked with.
@@ -134,6 +136,7 @@ pub fn number_module(tier: Tier) -> &'static Module {
     static DOUBLES: OnceLock<Module> = OnceLock::new();
     match tier.precision.format() {
         Format::Single if tier.precision == Precision::Fast => fast_module(),
+        Format::Single if tier.splits_fma => split_module(),
         Format::Single => math_module(),
         Format::Pair => pair_module(tier.exactness),
         Format::Double => DOUBLES.get_or_init(|| parse_wgsl(DOUBLE).0),
@@ -155,6 +158,12 @@ fn pair_text(exactness: Exactness) -> String {
 pub fn math_module() -> &'static Module {
     static MODULE: OnceLock<Module> = OnceLock::new();
     MODULE.get_or_init(|| parse_wgsl(MATH).0)
+}
+
+/// The library of functions on numbers of single precision with one more, which stands in for `fma`.
+fn split_module() -> &'static Module {
+    static MODULE: OnceLock<Module> = OnceLock::new();
+    MODULE.get_or_init(|| parse_wgsl(&[MATH, SPLIT].concat()).0)
 }
 
 /// The library of the tier `fast`: that of single precision with some functions in a shorter form.
@@ -210,6 +219,7 @@ mod tests {
     fn every_text_parses() {
         for (name, text) in [
             ("math", MATH),
+            ("split", &[MATH, SPLIT].concat()),
             ("fast", FAST),
             ("double", DOUBLE),
             ("shared", SHARED),

@@ -73,7 +73,9 @@ impl Lowering<'_, '_, '_> {
         args: &[Value],
     ) -> Result<Value, LowerError> {
         match builtin_name(fun) {
-            Some(name) if self.format.is_wide() => self.library(name, args.to_vec()),
+            Some(name) if self.format.is_wide() || self.linker.offers(name) => {
+                self.library(name, args.to_vec())
+            }
             _ => Ok(self.math(fun, args)),
         }
     }

@@ -10,6 +10,9 @@ pub struct Tier {
     pub precision: Precision,
     /// The form of the exact steps; only [`Precision::Extended`] has several.
     pub exactness: Exactness,
+    /// Whether the adapter's `fma` is a product and a sum, each rounded, so that places on rays are made of exact steps; only
+    /// [`Precision::Accurate`] asks.
+    pub splits_fma: bool,
 }
 
 impl Tier {
@@ -25,6 +28,7 @@ impl From<Precision> for Tier {
         Self {
             precision,
             exactness: Exactness::default(),
+            splits_fma: false,
         }
     }
 }

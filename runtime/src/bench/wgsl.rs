@@ -5,7 +5,7 @@ use naga::{Function, Module};
 use pullback_compiler::SceneModule;
 use pullback_compiler::formula::Formula;
 use pullback_compiler::link::{Linker, Provider};
-use pullback_compiler::lower::{LowerError, Precision};
+use pullback_compiler::lower::{LowerError, Tier};
 
 use crate::Error;
 
@@ -32,9 +32,9 @@ pub fn validated(module: &Module) -> Result<ModuleInfo, Error> {
 pub(super) fn numbers_of_pixels(
     text: &str,
     formula: &Formula,
-    precision: Precision,
+    tier: Tier,
 ) -> Result<(Module, ModuleInfo), Error> {
-    let spliced = SceneModule::splice(&parsed(text)?, formula, precision.into())
+    let spliced = SceneModule::splice(&parsed(text)?, formula, tier)
         .map_err(|problem| invalid(format!("{problem:?}")))?;
     let image = parsed(include_str!("image.wgsl"))?;
     let mut linker = Linker::new(vec![&image, &spliced]);

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use pullback_runtime::{AdapterChoice, Error, Gpu};
 use pullback_tests::marches::densities::{DENSITIES, Density};
-use pullback_tests::marches::{FRAME, Measured, Plan, Rival, measure};
+use pullback_tests::marches::{FLOOR, FRAME, Measured, Plan, Rival, fineness, measure};
 
 /// The marks around the table in the document.
 const BEGIN: &str = concat!(
@@ -32,7 +32,7 @@ struct Options {
     #[arg(long, default_value = "10", value_parser = ["5", "10", "20", "40"])]
     stride: String,
     /// March and Gauss quadrature need not be better than this part of the integral of |f|
-    #[arg(long, default_value_t = 1e-5)]
+    #[arg(long, default_value_t = FLOOR)]
     floor: f64,
     /// Seconds of timed turns of a density
     #[arg(long, default_value_t = 2.0)]
@@ -62,11 +62,11 @@ fn run(options: &Options) -> Result<(), Error> {
     };
     let mut table = format!(
         "\n{}, {}x{} rays:\n\n\
-         | density | formula | error | time, ms | steps | march | nodes | Gauss |\n\
-         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+         | density | formula | error | time, ms | steps | error | march | nodes | error | Gauss |\n\
+         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         gpu.adapter().name,
-        FRAME.width,
-        FRAME.height
+        fineness(&gpu) * FRAME.width,
+        fineness(&gpu) * FRAME.height
     );
     print!("{table}");
     for density in DENSITIES.iter().filter(|d| d.name.contains(&options.only)) {
@@ -89,11 +89,14 @@ fn row(density: &Density, measured: &Measured) -> String {
     )
 }
 
-/// Order and ratio of times, both as lower bounds where the error was not reached.
+/// Order, error and ratio of times; order and ratio are lower bounds where the error was not reached.
 fn told(rival: &Rival) -> String {
     let over = if rival.reached { "" } else { "> " };
     let digits = usize::from(rival.ratio < 10.0);
-    format!("{over}{} | {over}{:.*}", rival.order, digits, rival.ratio)
+    format!(
+        "{over}{} | {:.0e} | {over}{:.*}",
+        rival.order, rival.error, digits, rival.ratio
+    )
 }
 
 /// Writes the table between the marks.

@@ -155,7 +155,7 @@ fn canvas(gpu: &Gpu) -> Result<Canvas, Error> {
 }
 
 fn staged(canvas: &Canvas, formula: &Formula, text: &str) -> Result<Stage, Error> {
-    let (module, info) = numbers_of_pixels(text, formula, Precision::Fast)?;
+    let (module, info) = numbers_of_pixels(text, formula, Precision::Fast.into())?;
     canvas.stage(&module, &info)
 }
 

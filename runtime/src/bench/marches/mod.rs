@@ -17,13 +17,15 @@ use quadrature::Exact;
 use rays::{Ray, Reference, rays};
 use shaders::{Method, module};
 
-/// The timed frame.
+/// The frame whose rays are judged, of which every so manyth is.
 pub const FRAME: Size = Size {
     width: 640,
     height: 360,
 };
 /// Most steps of a march.
 pub const STEPS: u32 = 4096;
+/// March and Gauss quadrature need not be better than this, as a part of ∫ |f|: what closed forms are held to.
+pub const FLOOR: f64 = 1e-6;
 /// Orders of the rule of Gauss and Legendre.
 pub const ORDERS: [u32; 10] = [2, 4, 6, 8, 12, 16, 24, 32, 48, 64];
 
@@ -62,6 +64,12 @@ pub struct Measured {
     pub march: Rival,
     /// Gauss and Legendre.
     pub gauss: Rival,
+}
+
+/// How many rays of a side of a pixel are timed: so many that a frame takes longer than it takes to begin one.
+#[must_use]
+pub fn fineness(gpu: &Gpu) -> u32 {
+    if gpu.adapter().is_software() { 1 } else { 4 }
 }
 
 /// The samples of a frame, with their integrals in f64.
@@ -146,7 +154,13 @@ impl<'a> Samples<'a> {
 
     /// The error that 99.9 % of the rays are within, as a part of ∫ |f|.
     fn error(&mut self, method: Method) -> Result<f64, Error> {
-        let (canvas, stage) = staged(self.gpu, self.formula, method, self.stride, self.size)?;
+        let (canvas, stage) = staged(
+            self.gpu,
+            self.formula,
+            method,
+            f64::from(self.stride),
+            self.size,
+        )?;
         let bytes = canvas.picture(&stage)?;
         let found = bytes.as_chunks::<4>().0;
         let mut errors: Vec<f64> = self
@@ -169,7 +183,7 @@ fn staged(
     gpu: &Gpu,
     formula: &Formula,
     method: Method,
-    stride: u32,
+    stride: f64,
     size: Size,
 ) -> Result<(Canvas, Stage), Error> {
     let frame = Frame {
@@ -185,7 +199,7 @@ fn staged(
         pipeline: Pipeline::Compute,
     };
     let canvas = Canvas::new(gpu, &frame)?;
-    let (module, info) = module(formula, method, stride)?;
+    let (module, info) = module(gpu, formula, method, stride)?;
     let stage = canvas.stage(&module, &info)?;
     Ok((canvas, stage))
 }
@@ -197,9 +211,15 @@ fn times(
     rivals: [Method; 2],
     seconds: f64,
 ) -> Result<[f64; 3], Error> {
-    let (_, closed) = staged(gpu, formula, Method::Closed, 1, FRAME)?;
-    let (_, march) = staged(gpu, formula, rivals[0], 1, FRAME)?;
-    let (canvas, gauss) = staged(gpu, formula, rivals[1], 1, FRAME)?;
+    let fine = fineness(gpu);
+    let size = Size {
+        width: fine * FRAME.width,
+        height: fine * FRAME.height,
+    };
+    let of = |method| staged(gpu, formula, method, 1.0 / f64::from(fine), size);
+    let (_, closed) = of(Method::Closed)?;
+    let (_, march) = of(rivals[0])?;
+    let (canvas, gauss) = of(rivals[1])?;
     let stages = [closed, march, gauss];
     let first = canvas.turns(&stages, 1)?;
     let once: f64 = first.iter().flatten().sum();

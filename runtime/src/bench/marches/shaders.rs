@@ -6,8 +6,9 @@ use pullback_compiler::formula::Formula;
 use pullback_compiler::integrate::gauss_legendre;
 use pullback_compiler::lower::Precision;
 
-use crate::Error;
 use crate::bench::wgsl::numbers_of_pixels;
+use crate::capabilities::Capabilities;
+use crate::{Error, Gpu};
 
 /// How an integral is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,14 +48,19 @@ impl Method {
 /// # Errors
 /// The formula is no density.
 pub fn module(
+    gpu: &Gpu,
     formula: &Formula,
     method: Method,
-    stride: u32,
+    stride: f64,
 ) -> Result<(Module, ModuleInfo), Error> {
     let (integral, order) = method.text();
     let text = format!(
-        "const STRIDE: f32 = {stride}.0;\nconst ORDER: u32 = {order}u;\n{}{integral}",
+        "const STRIDE: f32 = {stride:?};\nconst ORDER: u32 = {order}u;\n{}{integral}",
         include_str!("rays.wgsl")
     );
-    numbers_of_pixels(&text, formula, Precision::Accurate)
+    numbers_of_pixels(
+        &text,
+        formula,
+        Capabilities::tier(gpu, Precision::Accurate)?,
+    )
 }

@@ -8,7 +8,7 @@ use pullback_compiler::lower::Precision;
 use pullback_runtime::bench::canvas::Canvas;
 use pullback_runtime::bench::gradients::{self, formulas::Gradient};
 use pullback_runtime::bench::growth::grown;
-use pullback_runtime::bench::marches::{self, FRAME, Rival, densities::Density};
+use pullback_runtime::bench::marches::{self, FLOOR, FRAME, Rival, densities::Density};
 use pullback_runtime::bench::twins::{Off, Twin, times, twin_stages};
 use pullback_runtime::bench::{STAGES, median, operations};
 use pullback_runtime::difference::Bitmap;
@@ -124,13 +124,15 @@ pub(super) fn gradients_line(gradient: &Gradient, gpu: &Gpu) -> Result<String, F
 }
 
 /// The head of the table of closed forms.
-pub(super) fn marches_head(adapter: &str) -> String {
+pub(super) fn marches_head(adapter: &str, gpu: &Gpu) -> String {
+    let fine = marches::fineness(gpu);
     format!(
         "{adapter}; {}x{} rays. Errors are parts of the integral of |f|, which 99.9 % of the rays do not exceed; march and Gauss \
-         quadrature are as right, or right to 1e-5, and their times relative to that of the closed form\n\n\
-         | density | formula | error | time, ms | steps | march | nodes | Gauss |\n\
-         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
-        FRAME.width, FRAME.height
+         quadrature are as right, or right to 1e-6, and their times relative to that of the closed form\n\n\
+         | density | formula | error | time, ms | steps | error | march | nodes | error | Gauss |\n\
+         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        fine * FRAME.width,
+        fine * FRAME.height
     )
 }
 
@@ -138,7 +140,7 @@ pub(super) fn marches_head(adapter: &str) -> String {
 pub(super) fn marches_line(density: &Density, gpu: &Gpu) -> Result<String, Failure> {
     let plan = marches::Plan {
         stride: 10,
-        floor: 1e-5,
+        floor: FLOOR,
         seconds: 2.0,
     };
     let found = marches::measure(density, gpu, &plan)?;
@@ -148,8 +150,9 @@ pub(super) fn marches_line(density: &Density, gpu: &Gpu) -> Result<String, Failu
         let over = if rival.reached { "" } else { "> " };
         let digits = usize::from(rival.ratio < 10.0);
         format!(
-            "{over}{} | {:.*}{}",
+            "{over}{} | {:.0e} | {:.*}{}",
             rival.order,
+            rival.error,
             digits,
             rival.ratio,
             if rival.reached { "" } else { " at least" }

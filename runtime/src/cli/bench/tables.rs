@@ -156,7 +156,7 @@ impl Clerk<'_> {
             )?,
             Part::Marches => self.lines(
                 &path,
-                compared::marches_head(&adapter),
+                compared::marches_head(&adapter, self.gpu),
                 DENSITIES.map(|density| (density.name.to_owned(), density)),
                 |density, _| compared::marches_line(density, self.gpu),
             )?,
