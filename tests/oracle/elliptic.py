@@ -136,7 +136,7 @@ def lattices(rng):
     """The same of ℘ by its lattice and by its invariants."""
     half = [complex(x, y) for x, y in ((0, 1), (0.5, 0.875), (0.25, 1.5), (-0.4375, 0.625), (0, 4), (0.125, 9), (1.25, 0.5), (-2.5, 0.3125), (0.375, 0.2), (-0.6875, 0.125))]
     half += [complex(rng.uniform(-1, 1), rng.uniform(0.15, 1.5)) for _ in range(8)] + around(1j, rng, (1e-2,)) + around(0.5 + 0.8660254j, rng, (1e-2,))
-    for name, z in (("", 0.25), ("_complex", 0.375 + 0.25j), ("_small", 2**-6 + 2**-7 * 1j), ("_far", 1.3125 + 2.1875j), ("_half", 0.5), ("_near", 0.9375 - 0.03125j)):
+    for name, z in (("", 0.25), ("_complex", 0.375 + 0.25j), ("_small", 2**-6 + 2**-7 * 1j), ("_far", 1.3125 + 2.1875j), ("_half", 0.5), ("_near", 0.9375 - 0.03125j), ("_zero", 0.46875 + 0.484375j)):
         yield "weierstrass_p_lattice" + name, "f(z) = weierstrass_p({0}, z)", lambda t, z: of_lattice(z, t), [z], half
         if name in ("_complex", "_small", "_far"):
             yield "weierstrass_p_prime_lattice" + name, "f(z) = weierstrass_p_prime({0}, z)", lambda t, z: of_lattice_slope(z, t), [z], half[:14]
