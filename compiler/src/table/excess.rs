@@ -6,7 +6,7 @@
 /// The beginning of the name of a table of references, by how much `accurate` exceeds the goal there, and why.
 type Excess = (&'static str, f64, &'static str);
 
-const EXCESS: [Excess; 16] = [
+const EXCESS: [Excess; 12] = [
     ("airy_bi_real", 1.75, AXIS),
     ("airy_ai_prime_real", 1.75, AXIS),
     ("euler_beta", 1.75, PRODUCTS),
@@ -18,10 +18,6 @@ const EXCESS: [Excess; 16] = [
     ("jacobi_theta2", 1.5, STEPS),
     ("jacobi_theta3", 2.0, STEPS),
     ("jacobi_theta4", 1.75, STEPS),
-    ("jacobi_sn", 2.0, PERIOD),
-    ("jacobi_cn", 2.0, PERIOD),
-    ("weierstrass_p_invariants", 2.0, PERIOD),
-    ("weierstrass_p_prime_invariants", 1.25, PERIOD),
     ("weierstrass_p", 2.0, ZEROS),
 ];
 const AXIS: &str = "on the negative real axis the real part of a product with e^-ζ, whose exponent has a rounded real part";
@@ -34,7 +30,6 @@ const MIXED: &str =
     "where z is negative the terms of its derivative by a and b have both signs, and are larger";
 const ZEROS: &str =
     "about the double zeros of the square lattice the terms, as large as π²/3, cancel";
-const PERIOD: &str = "the argument is divided by a period that has three roundings";
 
 /// By how much the error of a function may exceed the goal in `accurate`, and why: 1 where it does not. `name` is that of its table of
 /// references, or its own.
