@@ -79,17 +79,17 @@ fn real_sum_rest(a: f32, b: f32, s: f32) -> f32 {
 /// a b - p exactly, where p is near the product and nothing underflows; 0 where that is no number.
 fn real_product_rest(a: f32, b: f32, p: f32) -> f32 {
     let zero = hidden_zero_of(a, b);
-    let product = two_product(opaque(a, zero), opaque(b, zero), zero);
-    let rest = opaque(product.x - p, zero) + product.y;
+    let product = opaque(a * b, zero);
+    let rest = opaque(product - p, zero) + rest_of_product(a, b, product, zero);
     return select(0.0, rest, is_finite(rest));
 }
 
 /// a b + c - s exactly, where s is near that; 0 where that is no number.
 fn real_mul_add_rest(a: f32, b: f32, c: f32, s: f32) -> f32 {
     let zero = hidden_zero_of(a, b);
-    let product = two_product(opaque(a, zero), opaque(b, zero), zero);
-    let sum = two_sum(product.x, opaque(c, zero), zero);
-    let rest = opaque(sum.x - s, zero) + (sum.y + product.y);
+    let product = opaque(a * b, zero);
+    let sum = two_sum(product, opaque(c, zero), zero);
+    let rest = opaque(sum.x - s, zero) + (sum.y + rest_of_product(a, b, product, zero));
     return select(0.0, rest, is_finite(rest));
 }
 

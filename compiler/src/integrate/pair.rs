@@ -36,8 +36,7 @@ pub fn product_rest(g: &mut Graph, a: Id, b: Id, p: Id) -> Id {
     if is_exact(a) || is_exact(b) {
         return g.real(0.0);
     }
-    let back = g.neg(p);
-    g.apply(Prim::MulAdd, &[a, b, back])
+    g.apply(Prim::ProductRest, &[a, b, p])
 }
 
 /// a b + c - s

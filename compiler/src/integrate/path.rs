@@ -391,7 +391,7 @@ pub fn without_rests(g: &mut Graph, root: Id) -> Id {
     let is_rest = |g: &Graph, id: Id| {
         matches!(
             g.node(id).op,
-            Op::Apply(Prim::MulAdd | Prim::SumRest | Prim::MulAddRest)
+            Op::Apply(Prim::MulAdd | Prim::SumRest | Prim::MulAddRest | Prim::ProductRest)
         )
     };
     if !order.iter().any(|&id| is_rest(g, id)) {
@@ -411,7 +411,7 @@ pub fn without_rests(g: &mut Graph, root: Id) -> Id {
                 let product = mul(g, a, b);
                 add(g, product, c)
             }
-            (Op::Apply(Prim::SumRest | Prim::MulAddRest), _) => g.real(0.0),
+            (Op::Apply(Prim::SumRest | Prim::MulAddRest | Prim::ProductRest), _) => g.real(0.0),
             _ => copy(g, id, &map, &mut binders),
         };
         map.insert(id, new);

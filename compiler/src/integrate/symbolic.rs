@@ -98,8 +98,8 @@ fn in_every_case(
 fn is_elementary(prim: Prim) -> bool {
     use Prim::{
         Abs, Add, And, Cos, Cosh, CosineRest, Div, Equal, Exp, Expm1, Exprel, Less, LessEqual, Max,
-        Min, Mul, MulAdd, MulAddRest, Neg, Not, Or, PowInt, Select, Sign, Sin, Sinc, SineRest,
-        Sinh, Sinhc, SquarePlus, Sub, SumRest,
+        Min, Mul, MulAdd, MulAddRest, Neg, Not, Or, PowInt, ProductRest, Select, Sign, Sin, Sinc,
+        SineRest, Sinh, Sinhc, SquarePlus, Sub, SumRest,
     };
     matches!(
         prim,
@@ -124,6 +124,7 @@ fn is_elementary(prim: Prim) -> bool {
             | Not
             | Or
             | PowInt(_)
+            | ProductRest
             | Select
             | Sign
             | Sin
@@ -310,6 +311,10 @@ impl Reader<'_> {
                 let product = self.product(a, b)?;
                 let sum = self.sum(&product, c, 1.0)?;
                 self.sum(&sum, s, -1.0)
+            }
+            (Prim::ProductRest, [a, b, p]) => {
+                let product = self.product(a, b)?;
+                self.sum(&product, p, -1.0)
             }
             (Prim::SineRest, [x, s]) => {
                 let sine = self.operation(Prim::Sin, std::slice::from_ref(x))?;

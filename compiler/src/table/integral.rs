@@ -337,8 +337,7 @@ fn places() -> [Row; 7] {
             mnemonic: "fma_rest",
             names: &[],
             usage: "",
-            doc: "a b + c - s exactly, where s is that rounded; 0 where that is no number: locally constant. The product is not \
-                  rounded where the adapter's fma is one operation",
+            doc: "a b + c - s exactly, where s is that rounded; 0 where that is no number: locally constant",
             typing: Typing::Real(4),
             real: Some(|a| real::mul_add_rest([a[0], a[1], a[2]], a[3])),
             complex: None,
@@ -352,15 +351,14 @@ fn places() -> [Row; 7] {
             mnemonic: "product_rest",
             names: &[],
             usage: "",
-            doc: "a b - p exactly, where p is the rounded product of a and b; 0 where that is no number: locally constant. On \
-                  every adapter, for functions that are written in the language",
+            doc: "a b - p exactly, where p is the rounded product of a and b; 0 where that is no number: locally constant",
             typing: Typing::Real(3),
             real: Some(|a| real::product_rest(a[0], a[1], a[2])),
             complex: None,
             derivative: Derivative::Zero,
             gpu: Gpu::Library("real_product_rest", None),
             gpu_complex: "",
-            cost: weight(12),
+            cost: weight(5),
         },
         wave_rest(
             Prim::SineRest,

@@ -62,8 +62,8 @@ fn run(options: &Options) -> Result<(), Error> {
     };
     let mut table = format!(
         "\n{}, {}x{} rays:\n\n\
-         | density | formula | error | time, ms | steps | march | nodes | Gauss |\n\
-         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+         | density | formula | error | time, ms | steps | error | march | nodes | error | Gauss |\n\
+         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         gpu.adapter().name,
         fineness(&gpu) * FRAME.width,
         fineness(&gpu) * FRAME.height
@@ -89,11 +89,14 @@ fn row(density: &Density, measured: &Measured) -> String {
     )
 }
 
-/// Order and ratio of times, both as lower bounds where the error was not reached.
+/// Order, error and ratio of times; order and ratio are lower bounds where the error was not reached.
 fn told(rival: &Rival) -> String {
     let over = if rival.reached { "" } else { "> " };
     let digits = usize::from(rival.ratio < 10.0);
-    format!("{over}{} | {over}{:.*}", rival.order, digits, rival.ratio)
+    format!(
+        "{over}{} | {:.0e} | {over}{:.*}",
+        rival.order, rival.error, digits, rival.ratio
+    )
 }
 
 /// Writes the table between the marks.

@@ -129,8 +129,8 @@ pub(super) fn marches_head(adapter: &str, gpu: &Gpu) -> String {
     format!(
         "{adapter}; {}x{} rays. Errors are parts of the integral of |f|, which 99.9 % of the rays do not exceed; march and Gauss \
          quadrature are as right, or right to 1e-6, and their times relative to that of the closed form\n\n\
-         | density | formula | error | time, ms | steps | march | nodes | Gauss |\n\
-         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+         | density | formula | error | time, ms | steps | error | march | nodes | error | Gauss |\n\
+         | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         fine * FRAME.width,
         fine * FRAME.height
     )
@@ -150,8 +150,9 @@ pub(super) fn marches_line(density: &Density, gpu: &Gpu) -> Result<String, Failu
         let over = if rival.reached { "" } else { "> " };
         let digits = usize::from(rival.ratio < 10.0);
         format!(
-            "{over}{} | {:.*}{}",
+            "{over}{} | {:.0e} | {:.*}{}",
             rival.order,
+            rival.error,
             digits,
             rival.ratio,
             if rival.reached { "" } else { " at least" }

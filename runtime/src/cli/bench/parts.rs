@@ -135,7 +135,7 @@ impl Part {
             Self::Marches => chart(
                 "Time relative to that of the closed form",
                 "ratio",
-                &[(5, "march"), (7, "Gauss and Legendre")],
+                &[(6, "march"), (9, "Gauss and Legendre")],
             ),
             Self::Accurate | Self::Double => chart(
                 "Greatest difference from f64",
