@@ -7,12 +7,12 @@ pub mod rays;
 pub mod tables;
 
 use pullback_compiler::formula::Formula;
-use pullback_compiler::integrate::{Otherwise, field_integral};
+use pullback_compiler::integrate::{Otherwise, field_integral, shifted_field_integral};
 use pullback_compiler::{Evaluator, What, compile, compile_function};
 
 use crate::accuracy::evaluators::{Machine, Point};
 use crate::marches::quadrature::adaptive;
-use classes::Class;
+use classes::{Class, Poles};
 use rays::{Distance, Ray, Slant};
 
 /// What an error may be, as a part of ∫ |f|.
@@ -23,6 +23,8 @@ const ROUNDING: f64 = 6e-8;
 const LARGEST: f64 = 3e37;
 /// What is below counts as 0 in binary32.
 const LEAST: f64 = 1e-37;
+/// Steps by which the place nearest to the centre is found.
+const STEPS: usize = 4;
 /// Greatest number of panels that a ray is begun with, each of two radians of the fastest wave; where that is not enough it is
 /// left out.
 const PANELS: f64 = 3000.0;
@@ -43,8 +45,11 @@ pub struct Outcome {
     /// How much the exact integral changes where each of the eight numbers of the ray is rounded: the sum of the
     /// changes. Only known where the error is beyond the bound.
     pub moved: f64,
-    /// The error where the origin was moved, in f64, to the place nearest to the centre; of origins that are not near.
+    /// The error where the origin was moved, in f64, to the place nearest to the centre, and what the numbers of the moved ray
+    /// were rounded by is handed over; of origins that are not near.
     pub shifted: f64,
+    /// The same without what they were rounded by.
+    pub rounded: f64,
     /// The error of the textbook's form, where there is one.
     pub textbook: f64,
 }
@@ -109,6 +114,16 @@ pub fn closed_form(of: &Formula) -> Formula {
     made.unwrap_or_else(|e| panic!("{e:?}")).into_formula(of)
 }
 
+/// The same as a function of a ray whose origin was moved, and of what its numbers were rounded by.
+///
+/// # Panics
+/// A part of the density has no closed form.
+#[must_use]
+pub fn shifted_closed_form(of: &Formula) -> Formula {
+    let made = shifted_field_integral(of, Otherwise::Refuse);
+    made.unwrap_or_else(|e| panic!("{e:?}")).into_formula(of)
+}
+
 /// Measures a class on the rays, by the machine.
 ///
 /// # Errors
@@ -117,25 +132,47 @@ pub fn closed_form(of: &Formula) -> Formula {
 /// # Panics
 /// A part of the density has no closed form.
 pub fn measure(class: &Class, rays: &[Ray], machine: &Machine) -> Result<Found, String> {
+    measure_changed(class, rays, machine, &|integral| integral)
+}
+
+/// The same of integrals with a change.
+///
+/// # Errors
+/// The machine's, in words.
+///
+/// # Panics
+/// A part of the density has no closed form.
+pub fn measure_changed(
+    class: &Class,
+    rays: &[Ray],
+    machine: &Machine,
+    change: &dyn Fn(Formula) -> Formula,
+) -> Result<Found, String> {
     let of = formula(class.formula);
-    let integral = closed_form(&of);
+    let integral = change(closed_form(&of));
     is_written_alike(class, &of, rays)?;
     let exact: Vec<(Ray, Truth)> = rays
         .iter()
         .filter_map(|ray| Some((*ray, truth(class, ray)?)))
         .collect();
-    let run = |formula: &Formula, shifted: bool| -> Result<Vec<f64>, String> {
-        let points: Vec<Point> = exact
-            .iter()
-            .map(|(ray, _)| point(&if shifted { ray.shifted() } else { *ray }))
-            .collect();
+    let run = |formula: &Formula, of: &dyn Fn(&Ray) -> Vec<f64>| -> Result<Vec<f64>, String> {
+        let point = |(ray, _): &(Ray, Truth)| Point {
+            args: of(ray),
+            params: Vec::new(),
+        };
+        let points: Vec<Point> = exact.iter().map(point).collect();
         let rows = machine.run(formula, What::Value, &points)?;
         Ok(rows.iter().map(|row| row[0]).collect())
     };
-    let own = run(&integral, false)?;
-    let shifted = run(&integral, true)?;
+    let as_it_is = |ray: &Ray| ray.numbers.to_vec();
+    let own = run(&integral, &as_it_is)?;
+    let rounded = run(&integral, &|ray| ray.shifted().0.numbers.to_vec())?;
+    let shifted = run(&change(shifted_closed_form(&of)), &|ray| {
+        let (ray, rests) = ray.shifted();
+        [ray.numbers.as_slice(), &rests].concat()
+    })?;
     let naive = match class.textbook {
-        Some(text) => run(&textbook(text), false)?,
+        Some(text) => run(&textbook(text), &as_it_is)?,
         None => vec![f64::NAN; exact.len()],
     };
     let outcome = |(k, (ray, truth)): (usize, &(Ray, Truth))| Outcome {
@@ -146,6 +183,7 @@ pub fn measure(class: &Class, rays: &[Ray], machine: &Machine) -> Result<Found, 
         error: error(own[k], truth),
         moved: 0.0,
         shifted: error(shifted[k], truth),
+        rounded: error(rounded[k], truth),
         textbook: error(naive[k], truth),
     };
     let mut outcomes: Vec<Outcome> = exact.iter().enumerate().map(outcome).collect();
@@ -218,12 +256,61 @@ fn movements(integral: &Formula, rays: &[Ray]) -> Result<Vec<f64>, String> {
     Ok(rows.chunks(9).map(change).collect())
 }
 
-/// The integral, where it is a number that binary32 holds and so is f on the way.
+/// A ray whose t is counted from the place of its interval that is nearest to the centre, so that f64 tells how it passes there.
+struct Seen {
+    base: [f64; 3],
+    direction: [f64; 3],
+    ends: [f64; 2],
+}
+
+impl Seen {
+    fn of(ray: &Ray) -> Self {
+        let n = ray.numbers;
+        let mut out = Self {
+            base: [n[0], n[1], n[2]],
+            direction: [n[3], n[4], n[5]],
+            ends: [n[6].min(n[7]), n[6].max(n[7])],
+        };
+        // each step finds the rest of the last one, which was rounded
+        for _ in 0..STEPS {
+            let foot = out.foot().clamp(out.ends[0], out.ends[1]);
+            out.base = out.at(foot);
+            out.ends = out.ends.map(|t| t - foot);
+        }
+        out
+    }
+
+    fn square(&self) -> f64 {
+        self.direction.iter().map(|d| d * d).sum()
+    }
+
+    /// Where the line is nearest to the centre.
+    fn foot(&self) -> f64 {
+        let along: f64 = (0..3).map(|c| self.base[c] * self.direction[c]).sum();
+        let square = self.square();
+        if square > 0.0 { -along / square } else { 0.0 }
+    }
+
+    fn at(&self, t: f64) -> [f64; 3] {
+        std::array::from_fn(|c| t.mul_add(self.direction[c], self.base[c]))
+    }
+
+    /// Whether the ray goes through the centre, in the interval. Products of numbers of binary32 are exact in f64.
+    fn meets(&self, ray: &Ray) -> bool {
+        let n = ray.numbers;
+        let is_parallel = |(i, j): (usize, usize)| n[i] * n[3 + j] == n[j] * n[3 + i];
+        let is_inside = (self.ends[0]..=self.ends[1]).contains(&self.foot());
+        is_inside && [(0, 1), (1, 2), (2, 0)].into_iter().all(is_parallel)
+    }
+}
+
+/// The integral, where it is a number that binary32 holds and so is f on the way, of a pole that is integrable any number.
 fn truth(class: &Class, ray: &Ray) -> Option<Truth> {
-    let places = places(class, ray)?;
-    if meets_pole(class, ray) {
+    let seen = Seen::of(ray);
+    if class.poles == Poles::Weak && seen.meets(ray) {
         return None;
     }
+    let places = places(class, &seen)?;
     let (mut greatest, mut low, mut high): (f64, f64, f64) =
         (0.0, f64::INFINITY, f64::NEG_INFINITY);
     let mut has_pole = false;
@@ -231,14 +318,19 @@ fn truth(class: &Class, ray: &Ray) -> Option<Truth> {
         if has_pole {
             return f64::NAN;
         }
-        let f = (class.density)(ray.at(t));
+        let f = (class.density)(seen.at(t));
         greatest = greatest.max(if f.is_nan() { f64::INFINITY } else { f.abs() });
         (low, high) = (low.min(f), high.max(f));
         // f changes its sign there, or is beyond all that it is elsewhere
-        has_pole = class.has_poles && (low < 0.0 && high > 0.0 || greatest > 1e6);
+        has_pole = class.poles == Poles::Strong && (low < 0.0 && high > 0.0 || greatest > 1e6);
         f
     });
-    let is_number = greatest < LARGEST && exact.value.is_finite() && exact.size < LARGEST;
+    let largest = if class.poles == Poles::Weak {
+        f64::INFINITY
+    } else {
+        LARGEST
+    };
+    let is_number = greatest < largest && exact.value.is_finite() && exact.size < LARGEST;
     let sign = if ray.numbers[6] > ray.numbers[7] {
         -1.0
     } else {
@@ -250,21 +342,11 @@ fn truth(class: &Class, ray: &Ray) -> Option<Truth> {
     })
 }
 
-/// Whether the ray goes through the centre, up to a rounding of f64, in the interval, and the density is infinite there.
-fn meets_pole(class: &Class, ray: &Ray) -> bool {
-    let n = ray.numbers;
-    let square: f64 = n[3..6].iter().map(|d| d * d).sum();
-    let foot = -(0..3).map(|c| n[c] * n[3 + c]).sum::<f64>() / square;
-    let is_inside = (n[6].min(n[7])..=n[6].max(n[7])).contains(&foot);
-    is_inside && (class.density)(ray.at(foot)).abs() > 1e14
-}
-
 /// Where panels begin and end: at the ends, around the place nearest to the centre and those where a coordinate is 0, at
 /// distances that grow by the factor 4, and evenly where the density turns.
-fn places(class: &Class, ray: &Ray) -> Option<Vec<f64>> {
-    let n = ray.numbers;
-    let ends = [n[6].min(n[7]), n[6].max(n[7])];
-    let square: f64 = n[3..6].iter().map(|d| d * d).sum();
+fn places(class: &Class, seen: &Seen) -> Option<Vec<f64>> {
+    let ends = seen.ends;
+    let square = seen.square();
     let speed = square.sqrt();
     let pieces = (class.turns * speed * (ends[1] - ends[0]) / 2.0).ceil();
     if pieces > PANELS {
@@ -277,15 +359,20 @@ fn places(class: &Class, ray: &Ray) -> Option<Vec<f64>> {
             step *= 4.0;
         }
     };
-    for c in 0..3 {
-        if n[3 + c] != 0.0 {
-            around(-n[c] / n[3 + c], 0.05 / n[3 + c].abs());
+    for (base, slope) in seen.base.iter().zip(seen.direction) {
+        if slope != 0.0 {
+            around(-base / slope, 0.05 / slope.abs());
         }
     }
     if square > 0.0 {
-        let foot = -(0..3).map(|c| n[c] * n[3 + c]).sum::<f64>() / square;
-        let miss = ray.at(foot).iter().map(|x| x * x).sum::<f64>().sqrt();
-        around(foot, miss.clamp(1e-9, 0.1) / speed);
+        let foot = seen.foot();
+        let miss = seen.at(foot).iter().map(|x| x * x).sum::<f64>().sqrt();
+        let least = if class.poles == Poles::Weak {
+            1e-100
+        } else {
+            1e-9
+        };
+        around(foot, miss.clamp(least, 0.1) / speed);
     }
     let width = (ends[1] - ends[0]) / pieces.max(1.0);
     out.extend((1..pieces as u32).map(|k| ends[0] + f64::from(k) * width));

@@ -164,6 +164,7 @@ impl Builder<'_> {
             EmitWhat::Integral | EmitWhat::Transmittance | EmitWhat::Opacity => {
                 part.formula.name.trim_end_matches("_integral")
             }
+            EmitWhat::ShiftedIntegral => part.formula.name.trim_end_matches("_shifted_integral"),
             _ => &part.formula.name,
         };
         let base = base.unwrap_or_else(|| crate::lower::identifier(formula_name));
@@ -390,7 +391,11 @@ impl Builder<'_> {
         let is_real = ty == LanguageType::Real;
         match (part.what, ty) {
             (
-                EmitWhat::Value | EmitWhat::Integral | EmitWhat::Transmittance | EmitWhat::Opacity,
+                EmitWhat::Value
+                | EmitWhat::Integral
+                | EmitWhat::ShiftedIntegral
+                | EmitWhat::Transmittance
+                | EmitWhat::Opacity,
                 _,
             ) => {
                 let (ty, words) = match ty {

@@ -6,7 +6,7 @@ use super::constants::fixed;
 use super::request::EmitWhat;
 use crate::derive::forward;
 use crate::formula::{Formula, Input, column_names};
-use crate::integrate::{Otherwise, field_integral};
+use crate::integrate::{Otherwise, field_integral, shifted_field_integral};
 use crate::ir::{Op, Prim, Ty};
 use crate::lower::LowerError;
 use crate::module::{Evaluation, ModuleError, What, stable_evaluation};
@@ -45,9 +45,10 @@ pub(super) fn part(
 
 fn of_formula(formula: &Formula, what: EmitWhat) -> Result<Part, ModuleError> {
     let mut out = match what {
-        EmitWhat::Integral | EmitWhat::Transmittance | EmitWhat::Opacity => {
-            integral(formula, what)?
-        }
+        EmitWhat::Integral
+        | EmitWhat::ShiftedIntegral
+        | EmitWhat::Transmittance
+        | EmitWhat::Opacity => integral(formula, what)?,
         EmitWhat::Directional => directional(formula)?,
         _ => {
             let asked = match what {
@@ -132,7 +133,12 @@ fn directional(formula: &Formula) -> Result<Part, ModuleError> {
 
 /// The integral along a ray, or what hangs on it.
 fn integral(formula: &Formula, what: EmitWhat) -> Result<Part, ModuleError> {
-    let made = field_integral(formula, Otherwise::Quadrature).map_err(LowerError::NoIntegral)?;
+    let make = if what == EmitWhat::ShiftedIntegral {
+        shifted_field_integral
+    } else {
+        field_integral
+    };
+    let made = make(formula, Otherwise::Quadrature).map_err(LowerError::NoIntegral)?;
     let is_closed = made.integral.numerical.is_empty();
     let of = match what {
         EmitWhat::Transmittance => "exp(-τ) of the integral τ",

@@ -21,6 +21,9 @@ pub enum EmitWhat {
     Hessian,
     /// A function for the integral along a ray o + t d from t = a to t = b.
     Integral,
+    /// The same along a ray whose origin was moved in a wider format, which takes what its numbers were rounded by, too
+    /// ([`crate::integrate::shifted_field_integral`]).
+    ShiftedIntegral,
     /// A function for the part of the light that comes through f as an extinction, exp(-τ) with that integral τ.
     Transmittance,
     /// A function for the part that does not, 1 - exp(-τ) without cancellation: times a colour, what a medium emits that glows as
@@ -32,7 +35,7 @@ pub enum EmitWhat {
 
 impl EmitWhat {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Value,
         Self::Gradient,
         Self::Partials,
@@ -40,6 +43,7 @@ impl EmitWhat {
         Self::Derivative,
         Self::Hessian,
         Self::Integral,
+        Self::ShiftedIntegral,
         Self::Transmittance,
         Self::Opacity,
         Self::Scene,
@@ -56,6 +60,7 @@ impl EmitWhat {
             Self::Derivative => "derivative",
             Self::Hessian => "hessian",
             Self::Integral => "integral",
+            Self::ShiftedIntegral => "shifted-integral",
             Self::Transmittance => "transmittance",
             Self::Opacity => "opacity",
             Self::Scene => "scene",
@@ -72,6 +77,7 @@ impl EmitWhat {
             Self::Derivative => "_derivative",
             Self::Hessian => "_hessian",
             Self::Integral => "_integral",
+            Self::ShiftedIntegral => "_shifted_integral",
             Self::Transmittance => "_transmittance",
             Self::Opacity => "_opacity",
             Self::Scene => "_scene",

@@ -126,10 +126,16 @@ impl Integrator<'_> {
         }
         let whole = self.path.clone();
         self.path = whole.rebased(self.g);
+        self.splits_constants = true;
         let bowl = self.bowl(base);
-        let far = self.beside_log(&bowl, polynomials, degree);
+        let far = if polynomials.is_empty() {
+            self.log_alone(&bowl)
+        } else {
+            self.beside_log(&bowl, polynomials, degree)
+        };
         let integrand = self.beside(polynomials, super::term::Factor::Log(base));
         let value = self.near_or(&bowl, integrand, degree, far);
+        self.splits_constants = false;
         self.path = whole;
         Ok((value, Rule::LogQuadratic))
     }
@@ -160,14 +166,15 @@ impl Integrator<'_> {
         }
     }
 
-    /// The nodes of the integrand where the interval is short, else the other form.
+    /// The nodes of the integrand where the interval is short, else the other form. Of what is divided by a sum of squares they are
+    /// seen from the end where that is least.
     fn near_or(&mut self, bowl: &Bowl, integrand: Id, degree: u32, far: Id) -> Id {
         let (nodes, share) = if degree == 0 {
             (NEAR_NODES, 0.25)
         } else {
             (NEAR_NODES_OF_MOMENTS, REACH_OF_MOMENTS)
         };
-        let near = self.local_gauss(integrand, nodes + degree.div_ceil(2) as usize);
+        let near = self.gauss_of_bowl(integrand, bowl, nodes + degree.div_ceil(2) as usize);
         let reach = call(self.g, Prim::Abs, bowl.reach);
         let mut limit = scale(self.g, share, bowl.q.c);
         if !bowl.is_sum_of_squares {
@@ -206,7 +213,14 @@ impl Integrator<'_> {
         let ends = bowl.ends.map(|q| mul(self.g, sign, q));
         let quotient = self.angle_between(bowl, (p, e), ends);
         let length = mul(self.g, sign, bowl.length);
-        mul(self.g, length, quotient)
+        let value = mul(self.g, length, quotient);
+        match bowl.q.passing {
+            Some(passing) => {
+                let beside = self.reciprocal_beside(bowl, passing);
+                self.where_it_passes(bowl, beside, value)
+            }
+            None => value,
+        }
     }
 
     /// ∫ dt/q over its length, by p = D L², E and the values of q at both ends, none of which is negative.

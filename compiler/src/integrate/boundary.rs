@@ -6,9 +6,16 @@
 
 use super::Integrator;
 use super::algebraic::{Bowl, TINY};
-use super::arithmetic::{add, call, mul, scale, sub};
+use super::arithmetic::{add, call, div, mul, scale, square, sub};
 use super::pair::{Pair, sum_rest};
 use crate::ir::{Id, Prim};
+
+/// (σ/w)², w² = D/a², up to which an end is not far from the place of the least q.
+const NOT_LONG: f64 = 4.0;
+
+/// e⁻² as single precision has it, and log q - 2 less log(q BELOW).
+const BELOW: f64 = 0.135_335_281_491_279_6;
+const SHIFT: f64 = 1.289_636_419_532_961_3e-8;
 
 impl Integrator<'_> {
     /// ∫ p q^(n/2) for odd n ≥ -1 by (n + 1 + k) ∫ σᵏ q^(n/2) = [σᵏ⁻¹ q^(n/2) Q] - (k - 1) (D/a²) ∫ σᵏ⁻² q^(n/2), from the highest
@@ -118,6 +125,62 @@ impl Integrator<'_> {
         let rest = scale(self.g, 2.0, rest);
         let rest = self.none_of(alpha, rest);
         sub(self.g, beside, rest)
+    }
+
+    /// ∫ log q = [σ (log q - 2)] + 2 (D/a) ∫ 1/q. On an interval that is not long beside the distance from the zeros the last two terms
+    /// cancel: there [σ log q] - 2 [σ z A₁(z)], z = a σ²/(D/a) and A₁(z) = (1 - atan(√z)/√z)/z.
+    pub(super) fn log_alone(&mut self, bowl: &Bowl) -> Id {
+        let offsets = [0, 1].map(|end| self.offset_pair(bowl, end).total(self.g));
+        let depth = self.g.div(bowl.q.discriminant, bowl.q.a);
+        let angle = self.reciprocal(bowl);
+        let rest = mul(self.g, depth, angle);
+        let far = self.none_of(bowl.q.discriminant, rest);
+        let [one, scaled, zero, shift] = [1.0, BELOW, 0.0, SHIFT].map(|v| self.g.real(v));
+        let (mut factor, mut shift, mut curved) = (scaled, shift, far);
+        if bowl.is_sum_of_squares {
+            let bent = self.g.div(bowl.q.a, depth);
+            let squares = offsets.map(|s| square(self.g, s));
+            let ratios = squares.map(|s| mul(self.g, bent, s));
+            let parts = [0, 1].map(|end| {
+                let moment = self.g.apply(Prim::AtanQuotient(1), &[ratios[end]]);
+                let part = mul(self.g, ratios[end], moment);
+                mul(self.g, offsets[end], part)
+            });
+            let near = self.g.sub(parts[0], parts[1]);
+            let most = self.g.apply(Prim::Max, &ratios);
+            let limit = self.g.real(NOT_LONG);
+            let is_near = self.g.apply(Prim::Less, &[most, limit]);
+            let mut choose = |a: Id, b: Id| self.g.apply(Prim::Select, &[is_near, a, b]);
+            factor = choose(one, factor);
+            shift = choose(zero, shift);
+            curved = choose(near, curved);
+        }
+        let [first, last] = [0, 1].map(|end| {
+            let log = self.log_at_end(bowl, end, (factor, shift));
+            mul(self.g, offsets[end], log)
+        });
+        let beside = self.g.sub(last, first);
+        let curved = scale(self.g, 2.0, curved);
+        self.g.add(beside, curved)
+    }
+
+    /// log(q · factor) + shift at an end, with what q is rounded by.
+    fn log_at_end(&mut self, bowl: &Bowl, end: usize, (factor, shift): (Id, Id)) -> Id {
+        let q = self.pair_at_ends(bowl.q.of)[end];
+        let q = if bowl.is_sum_of_squares {
+            q
+        } else {
+            q.normalised(self.g)
+        };
+        let floor = self.g.real(TINY);
+        let value = self.g.apply(Prim::Max, &[q.value, floor]);
+        let q = Pair { value, ..q };
+        let factor = Pair::exact(self.g, factor);
+        let scaled = q.times(self.g, factor);
+        let log = call(self.g, Prim::Log, scaled.value);
+        let beside = div(self.g, scaled.rest, scaled.value);
+        let beside = add(self.g, beside, shift);
+        add(self.g, log, beside)
     }
 
     /// A product with a factor, 0 where that is 0: what it is multiplied by may be infinite there.

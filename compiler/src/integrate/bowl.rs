@@ -6,6 +6,7 @@
 use super::Integrator;
 use super::algebraic::Bowl;
 use super::arithmetic::{add, call, div, if_less, mul, scale, square, sub};
+use super::quadratic::{Passing, SCALE};
 use crate::ir::{Id, Prim};
 
 /// What a is kept from 0 by, where its root has no derivative.
@@ -15,6 +16,10 @@ const LEAST_CURVE: f64 = 1e-37;
 const NEXT_TO_ONE: f64 = 1.0 - 0.5 * f32::EPSILON as f64;
 /// Beyond it L²/S² is that of squares that underflow.
 const LARGEST_RATIO: f64 = 1e36;
+/// Below it a discriminant may be 0 that is not.
+const LEAST_DISCRIMINANT: f64 = 1e-30;
+/// -a L²/2E beyond which an interval between two zeros is long.
+const LONG_BETWEEN: f64 = 0.4;
 /// What S is kept from 0 by.
 const LEAST_SUM: f64 = 1e-30;
 
@@ -24,7 +29,59 @@ impl Integrator<'_> {
     pub(super) fn reciprocal_root_of_bowl(&mut self, bowl: &Bowl) -> Id {
         let (roots, sum) = self.roots(bowl);
         let width = self.width(bowl, roots);
-        self.by_width(bowl, sum, width)
+        let value = self.by_width(bowl, sum, width);
+        match bowl.q.passing {
+            Some(passing) => {
+                let beside = self.reciprocal_root_beside(bowl, passing);
+                self.where_it_passes(bowl, beside, value)
+            }
+            None => value,
+        }
+    }
+
+    /// The first where the line passes the zero of a sum of squares within the interval, so near that D or D L² is too small a number.
+    pub(super) fn where_it_passes(&mut self, bowl: &Bowl, beside: Id, otherwise: Id) -> Id {
+        let (zero, least) = (self.g.real(0.0), self.g.real(LEAST_DISCRIMINANT));
+        let is_between = self.g.apply(Prim::Less, &[bowl.q.chord, zero]);
+        let triangle = self.width_of_triangle(bowl);
+        let size = self.g.apply(Prim::Min, &[bowl.q.discriminant, triangle]);
+        let is_near = self.g.apply(Prim::Less, &[size, least]);
+        let passes = self.g.apply(Prim::And, &[is_between, is_near]);
+        self.g.apply(Prim::Select, &[passes, beside, otherwise])
+    }
+
+    /// E < 0: ∫ 1/√q = ±(2/√a) log((S + √a |L|) √((r₀ r₁ - E)/2)/(√D |L|)), as W = D L²/(r₀ r₁ - E).
+    fn reciprocal_root_beside(&mut self, bowl: &Bowl, passing: Passing) -> Id {
+        let sum = self.g.add(passing.ends[0], passing.ends[1]);
+        let size = call(self.g, Prim::Abs, bowl.length);
+        let along = mul(self.g, passing.rate, size);
+        let whole = self.g.add(sum, along);
+        let product = mul(self.g, passing.ends[0], passing.ends[1]);
+        let across = self.g.sub(product, bowl.q.chord);
+        let across = scale(self.g, 0.5, across);
+        let across = call(self.g, Prim::Sqrt, across);
+        let top = mul(self.g, whole, across);
+        let bottom = mul(self.g, passing.distance, size);
+        let ratio = self.g.div(top, bottom);
+        let log = call(self.g, Prim::Log, ratio);
+        let scaled = self.g.real(SCALE.ln());
+        let log = self.g.add(log, scaled);
+        let double = scale(self.g, 2.0, log);
+        let value = self.g.div(double, passing.rate);
+        let sign = call(self.g, Prim::Sign, bowl.length);
+        mul(self.g, sign, value)
+    }
+
+    /// E < 0: ∫ 1/q = ±atan2(√D |L|, E)/√D.
+    pub(super) fn reciprocal_beside(&mut self, bowl: &Bowl, passing: Passing) -> Id {
+        let size = call(self.g, Prim::Abs, bowl.length);
+        let across = mul(self.g, passing.distance, size);
+        let along = scale(self.g, SCALE, bowl.q.chord);
+        let angle = self.g.apply(Prim::Atan2, &[across, along]);
+        let value = self.g.div(angle, passing.distance);
+        let value = scale(self.g, SCALE, value);
+        let sign = call(self.g, Prim::Sign, bowl.length);
+        mul(self.g, sign, value)
     }
 
     /// The same with S and W. Below 1 by log(1 + y)/y, so that the derivative does not cancel.
@@ -105,7 +162,26 @@ impl Integrator<'_> {
         let part = self.g.apply(Prim::Select, &[is_narrow, narrow, wide]);
         let factor = add(self.g, one, part);
         let least = div(self.g, bowl.length, product);
-        mul(self.g, least, factor)
+        let value = mul(self.g, least, factor);
+        if bowl.is_sum_of_squares {
+            return value;
+        }
+        let between = self.reciprocal_square_between(bowl);
+        let limit = self.g.real(-LONG_BETWEEN);
+        let is_long = self.g.apply(Prim::Less, &[reach, limit]);
+        let is_long = self.g.apply(Prim::And, &[ahead, is_long]);
+        self.g.apply(Prim::Select, &[is_long, between, value])
+    }
+
+    /// ∫ 1/q² = ([q'/2q] + a ∫ 1/q)/2D: between two zeros, where a/q < 0, both terms have one sign.
+    fn reciprocal_square_between(&mut self, bowl: &Bowl) -> Id {
+        let [first, last] = [0, 1].map(|k| self.g.div(bowl.q.slopes[k], bowl.ends[k]));
+        let beside = self.g.sub(last, first);
+        let whole = self.reciprocal(bowl);
+        let curved = mul(self.g, bowl.q.a, whole);
+        let sum = self.g.add(beside, curved);
+        let twice = scale(self.g, 2.0, bowl.q.discriminant);
+        self.g.div(sum, twice)
     }
 
     /// x/e² without e².

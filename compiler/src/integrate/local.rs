@@ -8,7 +8,8 @@
 use rustc_hash::FxHashMap;
 
 use super::Integrator;
-use super::arithmetic::{add, call, div, mul, mul_add, scale, sub};
+use super::algebraic::Bowl;
+use super::arithmetic::{add, call, div, if_less, mul, mul_add, scale, sub};
 use super::legendre::{Node, gauss_legendre};
 use super::pair::Pair;
 use super::path::Body;
@@ -62,6 +63,53 @@ impl Integrator<'_> {
         let mean = self.mean_of_locals(root, &locals, count);
         let length = self.length_of_path();
         mul(self.g, length, mean)
+    }
+
+    /// The same, a sum of squares seen from the end where it is less: from the middle it would be what is left of its value there,
+    /// which counts where it is divided by.
+    pub(super) fn gauss_of_bowl(&mut self, root: Id, bowl: &Bowl, count: usize) -> Id {
+        let base = bowl.q.of;
+        let is_beside = |(id, kind): &(Id, Kind)| *id == base && matches!(kind, Kind::Polynomial);
+        let found = bowl.is_sum_of_squares.then(|| self.locals_of(root));
+        let Some(found) = found.flatten().filter(|all| all.iter().any(is_beside)) else {
+            return self.local_gauss(root, count);
+        };
+        let [first, last] = bowl.ends;
+        let half = self.path.half;
+        let back = self.g.neg(half);
+        // counted from the lesser end on
+        let ahead = if_less(self.g, last, first, back, half);
+        let least = self.g.apply(Prim::Min, &[first, last]);
+        let slope = if_less(self.g, last, first, bowl.q.slopes[1], bowl.q.slopes[0]);
+        let slope = scale(self.g, 2.0, slope);
+        let others: Vec<Local> = found
+            .into_iter()
+            .filter(|local| !is_beside(local))
+            .map(|(id, kind)| self.local(id, kind))
+            .collect();
+        let leaves = others.iter().map(|l| l.id).chain(std::iter::once(base));
+        let body = Body::new(self.g, &[root], leaves);
+        let mut sum = self.g.real(0.0);
+        for Node { place, weight } in gauss_legendre(count) {
+            let sides: &[f64] = if place == 0.0 { &[1.0] } else { &[1.0, -1.0] };
+            let s = scale(self.g, place, ahead);
+            let mut both = self.g.real(0.0);
+            for &side in sides {
+                let mut values: Vec<(Id, Id)> = others
+                    .iter()
+                    .map(|l| (l.id, self.local_value(l, s, side)))
+                    .collect();
+                let u = scale(self.g, 1.0 + side * place, ahead);
+                let rate = mul_add(self.g, u, bowl.q.a, slope);
+                values.push((base, mul_add(self.g, u, rate, least)));
+                let value = body.at(self.g, &values)[0];
+                both = add(self.g, both, value);
+            }
+            let part = scale(self.g, 0.5 * weight, both);
+            sum = add(self.g, sum, part);
+        }
+        let length = self.length_of_path();
+        mul(self.g, length, sum)
     }
 
     /// The mean along the path by the same nodes.

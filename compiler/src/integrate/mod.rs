@@ -58,7 +58,7 @@ pub use expand::{MAX_FACTORS, MAX_TERMS};
 pub use explain::{Explanation, Rest, SAMPLE, Told, explain};
 pub use exponential::MAX_DEGREE_BESIDE;
 pub(crate) use field::of_integrals;
-pub use field::{FieldIntegral, INPUTS, field_integral};
+pub use field::{FieldIntegral, INPUTS, SHIFTED_INPUTS, field_integral, shifted_field_integral};
 pub use gaussian::MAX_DEGREE_BESIDE_GAUSSIAN;
 pub use infinite::improper;
 pub use legendre::{Node as QuadratureNode, gauss_legendre};
@@ -165,6 +165,8 @@ struct Integrator<'g> {
     beyond: bool,
     /// The conditions as they were written, of those that were decided.
     written: FxHashMap<Id, Id>,
+    /// Whether known numbers that single precision does not hold are pairs: where a logarithm is near 0 that counts.
+    splits_constants: bool,
     /// Number of nodes of the graph beyond which the integral is refused.
     limit: usize,
 }
@@ -184,6 +186,7 @@ impl<'g> Integrator<'g> {
             pieces: false,
             beyond: false,
             written: FxHashMap::default(),
+            splits_constants: false,
             limit,
         }
     }

@@ -9,9 +9,12 @@
 use rustc_hash::FxHashMap;
 
 use super::Integrator;
-use super::arithmetic::{add, call, div, if_less, is_zero, mul, scale};
+use super::arithmetic::{add, call, div, if_less, is_zero, mul, scale, total};
 use super::path::{Body, cone};
 use crate::ir::{Graph, Id, Op, Prim};
+
+/// Sizes of known numbers whose rests are kept.
+const SIZES: std::ops::RangeInclusive<f64> = 1e-20..=1e20;
 
 /// A rounded value and what is beyond it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,11 +60,31 @@ fn is_power_of_two(v: f64) -> bool {
     v == 0.0 || v.is_finite() && v.to_bits() & ((1 << 52) - 1) == 0
 }
 
+/// A number as one of single precision and the rest; `None` where that is 0, and of sizes at which either may be no normal number.
+fn split(v: f64) -> Option<(f64, f64)> {
+    #[allow(clippy::cast_possible_truncation, reason = "the rest is kept")]
+    let high = f64::from(v as f32);
+    let low = v - high;
+    (low != 0.0 && SIZES.contains(&v.abs())).then_some((high, low))
+}
+
 impl Pair {
     /// A value that is not rounded.
     pub fn exact(g: &mut Graph, value: Id) -> Self {
         let rest = g.real(0.0);
         Self { value, rest }
+    }
+
+    /// What does not change along the path. A known number that single precision does not hold has what it is rounded by.
+    pub fn constant(g: &mut Graph, value: Id) -> Self {
+        let zero = g.real(0.0);
+        let Some((high, low)) = g.as_real(value).and_then(split) else {
+            return Self { value, rest: zero };
+        };
+        Self {
+            value: g.real(high),
+            rest: g.real(low),
+        }
     }
 
     /// The one where a < b, else the other.
@@ -208,13 +231,22 @@ impl Integrator<'_> {
             let pair = if self.moves(id) {
                 self.pair_of_operation(id, &known)
             } else {
-                Some(Pair::exact(self.g, id))
+                Some(self.pair_of_constant(id))
             };
             if let Some(pair) = pair {
                 known.insert(id, pair);
             }
         }
         known.get(&root).copied()
+    }
+
+    /// What does not change along the path, with what it is rounded by where that is asked for.
+    fn pair_of_constant(&mut self, id: Id) -> Pair {
+        if self.splits_constants {
+            Pair::constant(self.g, id)
+        } else {
+            Pair::exact(self.g, id)
+        }
     }
 
     /// The same with the rests of what is constant along the path, too.
@@ -227,7 +259,7 @@ impl Integrator<'_> {
             let pair = self.pair_of_operation(id, &known);
             let pair = match pair {
                 None if self.moves(id) => return None,
-                None => Pair::exact(self.g, id),
+                None => self.pair_of_constant(id),
                 Some(pair) => pair,
             };
             known.insert(id, pair);
@@ -334,18 +366,21 @@ impl Integrator<'_> {
             (true, false) => (node.args[1], node.args[0]),
             _ => return None,
         };
-        let (x, product) = (*known.get(&x)?, *known.get(&left)?);
-        let value = self.g.apply(prim, &[product.value, right]);
+        let x = *known.get(&x)?;
+        let [factor, constant] = [factor, right].map(|id| self.pair_of_constant(id));
         let constant = if prim == Prim::Sub {
-            self.g.neg(right)
+            constant.negated(self.g)
         } else {
-            right
+            constant
         };
-        let own = mul_add_rest(self.g, [factor, x.value, constant], value);
-        let beside = mul(self.g, factor, x.rest);
+        let product = mul(self.g, factor.value, x.value);
+        let value = add(self.g, product, constant.value);
+        let own = mul_add_rest(self.g, [factor.value, x.value, constant.value], value);
+        let beside = mul(self.g, factor.value, x.rest);
+        let steeper = mul(self.g, factor.rest, x.value);
         Some(Pair {
             value,
-            rest: add(self.g, own, beside),
+            rest: total(self.g, [own, beside, steeper, constant.rest]),
         })
     }
 

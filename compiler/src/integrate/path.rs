@@ -55,13 +55,29 @@ impl Path {
         direction: &[Id],
         ends: (Id, Id),
     ) -> Self {
-        let lines: Vec<(Id, Id, Id)> = leaves
-            .iter()
-            .zip(origin)
-            .zip(direction)
-            .map(|((&leaf, &o), &d)| (leaf, o, d))
-            .collect();
-        Self::of_lines(g, &lines, [ends.0, ends.1])
+        let low = g.real(0.0);
+        let lows = vec![low; origin.len()];
+        Self::of_ray_beside(g, leaves, (origin, &lows), direction, ends)
+    }
+
+    /// The same with what the origin is beyond its rounded numbers.
+    pub fn of_ray_beside(
+        g: &mut Graph,
+        leaves: &[Id],
+        (origin, lows): (&[Id], &[Id]),
+        direction: &[Id],
+        ends: (Id, Id),
+    ) -> Self {
+        let zero = g.real(0.0);
+        let lines = leaves.iter().zip(origin.iter().zip(lows)).zip(direction);
+        let coordinates = lines.map(|((&leaf, (&origin, &low)), &slope)| Coordinate {
+            leaf,
+            origin,
+            low,
+            mid: origin,
+            slope,
+        });
+        Self::of_coordinates(g, coordinates.collect(), [ends.0, ends.1], [zero; 2])
     }
 
     /// Each a leaf, its value at t = 0, and its slope.

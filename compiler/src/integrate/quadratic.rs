@@ -41,7 +41,24 @@ pub struct Quadratic {
     pub foot: Id,
     /// What that is beyond [`Self::foot`].
     pub foot_low: Id,
+    /// Of a sum of two or three squares and nothing else: how the line passes its zero.
+    pub passing: Option<Passing>,
 }
+
+/// How a line passes the zero of a sum of squares, for distances of which the squares are too small numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Passing {
+    /// √D by [`SCALE`].
+    pub distance: Id,
+    /// √a
+    pub rate: Id,
+    /// The distances from the zero at both ends.
+    pub ends: [Id; 2],
+}
+
+/// A power of two that takes the least number of single precision, denormal ones among them, to where a quotient by it is not too
+/// large: 2⁶⁴.
+pub const SCALE: f64 = 18_446_744_073_709_551_616.0;
 
 /// What a polynomial of degree 2 is a sum of.
 #[derive(Debug, Default)]
@@ -98,8 +115,8 @@ impl Integrator<'_> {
         let foot = scale(self.g, -0.5, at_origin);
         let foot = self.g.div(foot, a);
         let foot_low = self.foot_low(id, foot);
-        let discriminant = if may_cancel {
-            self.discriminant_at_foot(id, a, at_origin)
+        let (discriminant, passing) = if may_cancel {
+            (self.discriminant_at_foot(id, a, at_origin), None)
         } else {
             self.discriminant_of_squares(id, a, b, c)
         };
@@ -127,6 +144,7 @@ impl Integrator<'_> {
             slopes: self.at_ends(rate).map(|s| scale(self.g, 0.5, s)),
             foot,
             foot_low,
+            passing,
         }
     }
 
@@ -172,7 +190,7 @@ impl Integrator<'_> {
     }
 
     /// a c - b² of a sum of squares from what is crossed, else as it is.
-    fn discriminant_of_squares(&mut self, id: Id, a: Id, b: Id, c: Id) -> Id {
+    fn discriminant_of_squares(&mut self, id: Id, a: Id, b: Id, c: Id) -> (Id, Option<Passing>) {
         let whole = self.path.clone();
         self.path = whole.from_origin(self.g);
         let mut found = self.squares(id);
@@ -180,12 +198,49 @@ impl Integrator<'_> {
             self.path = whole.from_place(self.g, place);
             found = self.squares(id);
         }
+        let passing = found.as_ref().and_then(|s| self.passing(s));
         let found = found.and_then(|s| self.discriminant(&s));
         self.path = whole;
-        found.unwrap_or_else(|| {
+        let discriminant = found.unwrap_or_else(|| {
             let (ac, bb) = (mul(self.g, a, c), square(self.g, b));
             sub(self.g, ac, bb)
-        })
+        });
+        (discriminant, passing)
+    }
+
+    /// |u × v| and |v| of a sum of squares |u + s v|² with weights 1.
+    fn passing(&mut self, found: &Squares) -> Option<Passing> {
+        let is_one = |w: &Id| self.g.as_real(*w) == Some(1.0);
+        let is_plain = found.linear.is_empty() && found.constant.is_empty();
+        if !is_plain || !found.squares.iter().all(|(w, _)| is_one(w)) {
+            return None;
+        }
+        let lines: Vec<Affine> = found.squares.iter().map(|s| s.1).collect();
+        let g = &mut *self.g;
+        let mut cross = |x: Affine, y: Affine| {
+            let mids = [x.mid, y.mid].map(|mid| scale(g, SCALE, mid));
+            let (left, right) = (mul(g, mids[0], y.slope), mul(g, mids[1], x.slope));
+            sub(g, left, right)
+        };
+        match *lines.as_slice() {
+            [x, y] => {
+                let crossed = cross(x, y);
+                Some(Passing {
+                    distance: call(g, Prim::Abs, crossed),
+                    rate: g.apply(Prim::Hypot, &[x.slope, y.slope]),
+                    ends: [0, 1].map(|k| g.apply(Prim::Hypot, &[x.ends[k], y.ends[k]])),
+                })
+            }
+            [x, y, z] => {
+                let crossed = [cross(x, y), cross(y, z), cross(z, x)];
+                Some(Passing {
+                    distance: g.apply(Prim::Hypot3, &crossed),
+                    rate: g.apply(Prim::Hypot3, &[x.slope, y.slope, z.slope]),
+                    ends: [0, 1].map(|k| g.apply(Prim::Hypot3, &[x.ends[k], y.ends[k], z.ends[k]])),
+                })
+            }
+            _ => None,
+        }
     }
 
     /// c - a h² = Σ w u₀ u₁ + Σ ℓ(m) + k.

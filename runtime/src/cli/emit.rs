@@ -122,6 +122,8 @@ enum Part {
     Hessian,
     /// The integral of a function of space along a ray, from its origin and direction and both ends
     Integral,
+    /// The same of a ray whose origin was moved, with what its numbers were rounded by
+    ShiftedIntegral,
     /// The part of the light that comes through the function as an extinction: exp(-τ) with that integral τ
     Transmittance,
     /// The part that does not come through, 1 - exp(-τ) without cancellation
@@ -140,6 +142,7 @@ impl Part {
             Self::Derivative => EmitWhat::Derivative,
             Self::Hessian => EmitWhat::Hessian,
             Self::Integral => EmitWhat::Integral,
+            Self::ShiftedIntegral => EmitWhat::ShiftedIntegral,
             Self::Transmittance => EmitWhat::Transmittance,
             Self::Opacity => EmitWhat::Opacity,
             Self::Scene => EmitWhat::Scene,

@@ -10,7 +10,9 @@ use pullback_runtime::{AdapterChoice, Gpu};
 use pullback_tests::accuracy::evaluators::Machine;
 use pullback_tests::stability::classes::{CLASSES, Class};
 use pullback_tests::stability::rays::{Distance, rays};
-use pullback_tests::stability::{BOUND, Found, closed_form, formula, measure, operations, tables};
+use pullback_tests::stability::{
+    BOUND, Found, closed_form, formula, measure_changed, operations, tables,
+};
 
 const BEGIN: &str = "<!-- stability: `cargo run -p pullback-tests --bin stability -- --markdown docs/integrals-stability.md` -->\n";
 const END: &str = "<!-- end of the stability -->\n";
@@ -36,9 +38,15 @@ struct Options {
     /// How many roundings of the numbers of a ray are allowed to those that are not printed
     #[arg(long, default_value_t = 8.0)]
     roundings: f64,
-    /// For each printed ray, that many of the operations whose rounding changes the integral most
+    /// For each of the worst rays, that many of the operations whose rounding changes the integral most
     #[arg(long, default_value_t = 0)]
     operations: usize,
+    /// Take divisions, roots and functions to be off by that many units in the last place, up or down by turns
+    #[arg(long, default_value_t = 0.0)]
+    loose: f64,
+    /// The error beyond which rays are printed with their operations
+    #[arg(long, default_value_t = BOUND)]
+    above: f64,
     /// Print that many rays of each class for tests/oracle/integrals_stability.py, and nothing else
     #[arg(long)]
     sample: Option<usize>,
@@ -74,7 +82,13 @@ fn run(options: &Options) -> Result<(), String> {
         .iter()
         .filter(|c| is_wanted(c.formula) || is_wanted(c.name))
     {
-        let found = measure(class, &rays, &machine)?;
+        let found = measure_changed(class, &rays, &machine, &|integral| {
+            if options.loose == 0.0 {
+                integral
+            } else {
+                operations::loosened(&integral, options.loose)
+            }
+        })?;
         eprint!(
             "{}",
             tables::unexplained(&found, options.roundings, options.worst)
@@ -103,7 +117,7 @@ fn operations(class: &Class, found: &Found, options: &Options) {
     let integral = closed_form(&formula(class.formula));
     let mut bad: Vec<_> = found
         .at(Distance::Near)
-        .filter(|o| o.error > BOUND)
+        .filter(|o| o.error > options.above)
         .collect();
     bad.sort_by(|a, b| b.error.total_cmp(&a.error));
     for o in bad.into_iter().take(options.worst) {

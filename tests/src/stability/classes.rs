@@ -2,6 +2,17 @@
 
 use pullback_compiler::reference::erf::erf;
 
+/// What singularities a density may have on a ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Poles {
+    /// None, or none that counts.
+    None,
+    /// One that has an integral on every ray but through it.
+    Weak,
+    /// Those that have none; intervals with one in them are left out.
+    Strong,
+}
+
 /// A class of densities that have a closed form, by one of them.
 #[derive(Clone, Copy, Debug)]
 pub struct Class {
@@ -13,8 +24,8 @@ pub struct Class {
     pub density: fn([f64; 3]) -> f64,
     /// How many radians it turns per unit of length, 0 where it does not.
     pub turns: f64,
-    /// Whether it has poles that are not integrable; intervals with one in them are left out.
-    pub has_poles: bool,
+    /// Its singularities.
+    pub poles: Poles,
     /// Its antiderivative as a textbook has it, at t with the height v = o.y + t d.y, its rate w = d.y, and
     /// q = A t² + 2 B t + C for |p|².
     pub textbook: Option<&'static str>,
@@ -26,7 +37,7 @@ const fn class(name: &'static str, formula: &'static str, density: fn([f64; 3]) 
         formula,
         density,
         turns: 0.0,
-        has_poles: false,
+        poles: Poles::None,
         textbook: None,
     }
 }
@@ -49,7 +60,18 @@ const fn with_poles(
     density: fn([f64; 3]) -> f64,
 ) -> Class {
     Class {
-        has_poles: true,
+        poles: Poles::Strong,
+        ..class(name, formula, density)
+    }
+}
+
+const fn with_weak_pole(
+    name: &'static str,
+    formula: &'static str,
+    density: fn([f64; 3]) -> f64,
+) -> Class {
+    Class {
+        poles: Poles::Weak,
         ..class(name, formula, density)
     }
 }
@@ -163,7 +185,7 @@ pub const CLASSES: [Class; 43] = [
         "(A t + B) sqrt(q)/(2 A) + D log(A t + B + sqrt(A) sqrt(q))/(2 A sqrt(A))",
     ),
     beside(
-        class("1/|p|", "1/length((x, y, z))", |p| 1.0 / q(p).sqrt()),
+        with_weak_pole("1/|p|", "1/length((x, y, z))", |p| 1.0 / q(p).sqrt()),
         "log(A t + B + sqrt(A) sqrt(q))/sqrt(A)",
     ),
     class("q^(-3/2)", "1/(x^2 + y^2 + z^2 + 0.01)^1.5", |p| {

@@ -49,6 +49,64 @@ pub fn worst(integral: &Formula, ray: &Ray, size: f64, count: usize) -> String {
     out
 }
 
+/// The integral with divisions, roots and functions that are off by as many units in the last place of binary32, up or down by turns:
+/// what a graphics card may do that rounds sums and products as binary32 does.
+#[must_use]
+pub fn loosened(integral: &Formula, units: f64) -> Formula {
+    let (graph, roots) = integral.to_compile();
+    let mut out = Graph::new();
+    let mut count = 0_u32;
+    let roots = transcribe(graph, roots, &mut out, |to, node, args| {
+        let prim = match node.op {
+            Op::Apply(prim) => prim,
+            op => return to.leaf(op, node.ty),
+        };
+        let new = to.apply(prim, args);
+        if node.ty != Ty::Real || !is_loose(prim) {
+            return new;
+        }
+        count += 1;
+        // Weyl's sequence, so that neighbours are not always off to different sides
+        let turn = f64::from(count) * 0.618_033_988_749_894_9;
+        let side = if turn.fract() < 0.5 { 1.0 } else { -1.0 };
+        let factor = to.real(1.0 + side * units * f64::from(f32::EPSILON));
+        to.apply(Prim::Mul, &[new, factor])
+    });
+    Formula {
+        graph: out,
+        value: roots.to_vec().into(),
+        derived: None,
+        ..integral.clone()
+    }
+}
+
+/// Whether an operation is none of those that are rounded once, or not at all, on every adapter.
+fn is_loose(prim: Prim) -> bool {
+    match prim {
+        Prim::PowInt(n) => n < 0,
+        Prim::Neg
+        | Prim::Add
+        | Prim::Sub
+        | Prim::Mul
+        | Prim::MulAdd
+        | Prim::SumRest
+        | Prim::MulAddRest
+        | Prim::Min
+        | Prim::Max
+        | Prim::Abs
+        | Prim::Sign
+        | Prim::Floor
+        | Prim::Ceil
+        | Prim::Round
+        | Prim::Trunc
+        | Prim::Fract
+        | Prim::Select
+        | Prim::Re
+        | Prim::Im => false,
+        _ => true,
+    }
+}
+
 fn rounded(graph: &Graph, root: Id, at: Id) -> (Graph, Id) {
     let mut out = Graph::new();
     let roots = transcribe(graph, &[root], &mut out, |to, node, args| {

@@ -202,9 +202,10 @@ fn smaller(a: Slant, b: Slant) -> Slant {
 }
 
 impl Ray {
-    /// The same ray with its origin moved, in f64, to the place of the interval that is nearest to the centre of the scene.
+    /// The same ray with its origin moved, in f64, to the place of the interval that is nearest to the centre of the scene: its
+    /// numbers in binary32, and what the origin and both ends are beyond them.
     #[must_use]
-    pub fn shifted(&self) -> Self {
+    pub fn shifted(&self) -> (Self, [f64; 5]) {
         let n = self.numbers;
         let (mut along, mut square) = (0.0, 0.0);
         for c in 0..3 {
@@ -214,12 +215,17 @@ impl Ray {
         let foot = if square > 0.0 { -along / square } else { 0.0 };
         let t = foot.clamp(n[6].min(n[7]), n[6].max(n[7]));
         let mut out = *self;
+        let mut rests = [0.0; 5];
+        let mut put = |k: usize, rest: usize, x: f64| {
+            out.numbers[k] = single(x);
+            rests[rest] = single(x - out.numbers[k]);
+        };
         for c in 0..3 {
-            out.numbers[c] = single(n[c] + t * n[3 + c]);
+            put(c, c, t.mul_add(n[3 + c], n[c]));
         }
-        out.numbers[6] = single(n[6] - t);
-        out.numbers[7] = single(n[7] - t);
-        out
+        put(6, 3, n[6] - t);
+        put(7, 4, n[7] - t);
+        (out, rests)
     }
 
     /// The place at t.
