@@ -5,7 +5,6 @@ use std::time::Instant;
 
 use pullback_compiler::formula::Formula;
 use pullback_compiler::lower::Precision;
-use pullback_compiler::table::excess;
 use pullback_compiler::{EmitWhat, EvalModule, Target, compile};
 use pullback_runtime::evaluate::Surroundings;
 use pullback_runtime::executor::{Contraction, Rows};
@@ -182,7 +181,7 @@ impl Batch {
             let (own, after) = rest.split_at(count);
             rest = after;
             let factors = table.judge_rows(own, precision.format());
-            let most = most(precision).max(MOST * excess(table.name).0);
+            let most = most(precision);
             Judged {
                 name: table.name,
                 precision,

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use pullback_compiler::defined::{Digits, Key, definition, shader_name, shader_names};
 use pullback_compiler::ir::{Op, Prim, Ty};
 use pullback_compiler::lower::Precision;
-use pullback_compiler::table::{self, excess};
+use pullback_compiler::table;
 use pullback_compiler::{EmitWhat, Target, compile};
 use pullback_runtime::executor::{Arithmetic, Contraction};
 use pullback_tests::accuracy::evaluators::{Machine, suite_gpu};
@@ -23,7 +23,6 @@ fn violations(tables: &[Table], machine: &Machine, most: f64) -> Vec<String> {
     let mut found = Vec::new();
     for table in tables {
         let name = format!("{}, {machine}", table.name);
-        let most = most.max(MOST * excess(table.name).0);
         match table.measure(machine) {
             Err(reason) => found.push(format!("{name}: {reason}")),
             Ok(factors) => {

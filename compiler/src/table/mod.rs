@@ -13,7 +13,6 @@ mod defined;
 mod derivative;
 mod domain;
 mod elliptic;
-mod excess;
 mod exponential;
 mod exponential_integral;
 mod hyperbolic;
@@ -36,7 +35,6 @@ use rustc_hash::FxHashMap;
 
 pub use bounds::{Bound, Bounds, Metric, bounds, bounds_of};
 pub use domain::outside;
-pub use excess::excess;
 pub use integral::MAX_MOMENT;
 pub use library::{Direct, Meaning, meaning};
 pub use number::Number;

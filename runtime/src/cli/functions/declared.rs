@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use pullback_compiler::table::{self, Bound, Bounds, excess};
+use pullback_compiler::table::{self, Bound, Bounds};
 
 use super::bounds::TIERS;
 
@@ -48,32 +48,7 @@ fn special(output: &mut dyn Write) -> io::Result<()> {
          [special-functions.md](special-functions.md); what they cost: [special.md](special.md).\n\nFunctions that are defined in the language may be off by 16 u of the norm of \
          the result and what changes of the arguments by 2 u\nmove, u = 2⁻²⁴, in `accurate` (10⁻⁶ of the norm); by four times that in \
          units of 2⁻⁴⁸ in `extended`, and sixteen times that in units of\n2⁻⁵³ in `double` (3 · 10⁻¹⁴ of the norm). Derivatives by four \
-         times as much, second derivatives by parameters by four times that. The suite `special` holds them to it. `accurate` exceeds that here:\n"
-    )?;
-    writeln!(
-        output,
-        "| function | values off by | that is times the goal | because |"
-    )?;
-    writeln!(output, "| --- | --- | --- | --- |")?;
-    let defined = table::rows()
-        .iter()
-        .filter(|row| row.is_written() && (row.is_defined(false) || row.is_defined(true)));
-    for row in defined {
-        let name = row.names.first().copied().unwrap_or(row.mnemonic);
-        let cases = [(name.to_owned(), ""), (format!("{name}_real"), " of reals")];
-        let mut last = 1.0;
-        for (key, of) in cases {
-            let (factor, reason) = excess(&key);
-            if factor > last {
-                last = factor;
-                writeln!(
-                    output,
-                    "| `{}`{of} | {} u | {factor} | {reason} |",
-                    row.usage,
-                    16.0 * factor
-                )?;
-            }
-        }
-    }
-    Ok(())
+         times as much, second derivatives by parameters by four times that. No function\nhas more. The suite `special` holds them \
+         to it, on an adapter the program `special_adapter`."
+    )
 }
