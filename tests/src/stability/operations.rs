@@ -74,7 +74,7 @@ pub fn loosened(integral: &Formula, units: f64) -> Formula {
     });
     Formula {
         graph: out,
-        value: roots.to_vec().into(),
+        value: roots.into(),
         derived: None,
         ..integral.clone()
     }
