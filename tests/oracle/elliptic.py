@@ -207,6 +207,15 @@ def curves(rng):
         for word, f in (("gegenbauer_c", gegenbauer(n)), ("laguerre_l", laguerre(n))):
             yield f"{word}_curve_{n}", f"f(z) = diff({word}({n}, z, {{0}}), z)", f, [0.375 + 0.25j], some
             yield f"{word}_curve_{n}_real", f"f(x) = diff({word}({n}, x, {{0}}), x)", f, [0.625], line
+    on_right = [complex(x, y) for x, y in ((2, 3), (0.5, 14.125), (0.5, 40), (0.25, -30), (3, -0.5), (8, 0), (0.5, 5), (1.5, 0.125), (0.0625, 0.03125), (0.5, -98.75), (12, 2), (0.75, 1))]
+    everywhere = on_right + [complex(x, y) for x, y in ((-2.5, 1), (-6.25, -8), (-1.25, 0), (-0.25, 0.5), (-15.5, 2), (-3, 4.5), (-0.5, 20), (1.015625, 0.03125))]
+    beta = lambda s: (mp.zeta(s, mp.mpf(1) / 4) - mp.zeta(s, mp.mpf(3) / 4)) / mp.mpf(4) ** s
+    zetas = [complex(x) for x in (-11.25, -6.25, -3, -1.5, -0.25, 0.25, 0.5, 0.9375, 1.125, 2, 3, 7, 15)]
+    yield "zeta_curve", "f(z) = diff(zeta(z), z)", mp.zeta, [], everywhere
+    yield "zeta_curve_real", "f(x) = diff(zeta(x), x)", mp.zeta, [], zetas
+    yield "dirichlet_beta_curve", "f(z) = diff(dirichlet_beta(z), z)", beta, [], everywhere
+    yield "hurwitz_zeta_curve", "f(z) = diff(hurwitz_zeta(z, {0}), z)", lambda s, a: mp.zeta(s, mp.re(a)), [0.25], on_right
+    yield "hurwitz_zeta_curve_large", "f(z) = diff(hurwitz_zeta(z, {0}), z)", lambda s, a: mp.zeta(s, mp.re(a)), [7.5], on_right
 
 
 def gegenbauer(n):

@@ -181,11 +181,25 @@ fn what_has_no_derivative_says_so() {
             "second derivative by g₂ or g₃",
         ),
         (
-            "f(z) = diff(hurwitz_zeta(z, 1/2), z)",
+            "f(z) = diff(hurwitz_zeta(z, 1/2), z, 2)",
             "hurwitz_zeta",
+            "third derivative by s",
+        ),
+        (
+            "f(z) = diff(zeta(z), z, 2)",
+            "zeta",
+            "third derivative by s",
+        ),
+        (
+            "f(z) = diff(dirichlet_beta(z), z, 2)",
+            "dirichlet_beta",
+            "third derivative by s",
+        ),
+        (
+            "f(z) = diff(dirichlet_eta(z), z)",
+            "dirichlet_eta",
             "second derivative by s",
         ),
-        ("f(z) = diff(zeta(z), z)", "zeta", "second derivative by s"),
     ];
     for (text, name, what) in missing {
         let answer = compile(text);

@@ -15,7 +15,10 @@ pub fn last_order(prim: Prim) -> u8 {
         | Prim::JacobiCn(_)
         | Prim::JacobiDn(_)
         | Prim::GegenbauerC(_)
-        | Prim::LaguerreL(_) => 2,
+        | Prim::LaguerreL(_)
+        | Prim::Zeta(_)
+        | Prim::DirichletBeta(_)
+        | Prim::HurwitzZeta(_) => 2,
         Prim::WeierstrassP(_) => 3,
         Prim::WeierstrassPInvariants(_) => 5,
         Prim::JacobiTheta1(_)
@@ -45,8 +48,8 @@ pub fn is_closed(prim: Prim) -> bool {
     )
 }
 
-/// Whether an operation has no derivative by its k-th operand: third derivatives by a parameter, second ones of ℘ by its lattice and of
-/// Hurwitz's function.
+/// Whether an operation has no derivative by its k-th operand: third derivatives by a parameter and of Hurwitz's function by s, second
+/// ones of ℘ by its lattice.
 pub fn is_missing(prim: Prim, k: usize) -> bool {
     match prim {
         Prim::JacobiSn(2..)
@@ -60,7 +63,7 @@ pub fn is_missing(prim: Prim, k: usize) -> bool {
         | Prim::JacobiTheta3(3..)
         | Prim::JacobiTheta4(3..) => k == 1,
         Prim::WeierstrassPInvariants(2..) => k > 0,
-        Prim::HurwitzZeta(1..) => k == 0,
+        Prim::HurwitzZeta(2..) => k == 0,
         Prim::Hypergeometric(3..) => k < 3,
         _ => false,
     }
@@ -202,7 +205,10 @@ fn zetas() -> [Row; 3] {
             &["zeta"],
             "zeta(s)",
             "Riemann's zeta function, for |im s| ≤ 500",
-            |g, args, _, _| call(g, Prim::Zeta(1), args[0]),
+            |g, args, value, _| {
+                let n = order(g, value);
+                call(g, Prim::Zeta(n + 1), args[0])
+            },
             9000,
         ),
         family(
@@ -218,7 +224,10 @@ fn zetas() -> [Row; 3] {
             &["dirichlet_beta"],
             "dirichlet_beta(s)",
             "Dirichlet's beta function, the sum of (-1)^n (2n + 1)^(-s), for |im s| ≤ 500",
-            |g, args, _, _| call(g, Prim::DirichletBeta(1), args[0]),
+            |g, args, value, _| {
+                let n = order(g, value);
+                call(g, Prim::DirichletBeta(n + 1), args[0])
+            },
             9000,
         ),
     ]

@@ -331,7 +331,7 @@ fn hypergeometric_by_argument(g: &mut Graph, args: &[Id], n: u8) -> Id {
     terms[1..].iter().fold(first, |sum, &term| g.add(sum, term))
 }
 
-/// ∂/∂a ζ(s, a) = -s ζ(s + 1, a) (DLMF 25.11.17), and its derivative by s.
+/// ∂/∂a ζ(s, a) = -s ζ(s + 1, a) (DLMF 25.11.17), and its derivatives by s.
 fn hurwitz(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     let n = order(g, value);
     if k == 0 {
@@ -343,7 +343,9 @@ fn hurwitz(g: &mut Graph, args: &[Id], value: Id, k: usize) -> Id {
     if n == 0 {
         return g.neg(product);
     }
-    let value = g.apply(Prim::HurwitzZeta(0), &[above, args[1]]);
-    let sum = g.add(value, product);
+    // (s ζ)⁽ⁿ⁾ = s ζ⁽ⁿ⁾ + n ζ⁽ⁿ⁻¹⁾
+    let before = g.apply(Prim::HurwitzZeta(n - 1), &[above, args[1]]);
+    let before = scaled(g, f64::from(n), before);
+    let sum = g.add(before, product);
     g.neg(sum)
 }

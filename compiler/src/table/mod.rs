@@ -274,9 +274,8 @@ pub fn lacking(prim: Prim) -> &'static str {
         Prim::GegenbauerC(_) | Prim::LaguerreL(_) => "third derivative by a",
         Prim::Hypergeometric(_) => "third derivative by a, b, c",
         Prim::EllipticD(_) | Prim::ModularLambdaSlope(_) => "third derivative",
-        Prim::HurwitzZeta(_) | Prim::Zeta(_) | Prim::DirichletEta(_) | Prim::DirichletBeta(_) => {
-            "second derivative by s"
-        }
+        Prim::HurwitzZeta(_) | Prim::Zeta(_) | Prim::DirichletBeta(_) => "third derivative by s",
+        Prim::DirichletEta(_) => "second derivative by s",
         Prim::WeierstrassP(_) => "second derivative by τ",
         Prim::WeierstrassPInvariants(_) => "second derivative by g₂ or g₃",
         _ => "derivative",
