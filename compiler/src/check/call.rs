@@ -85,11 +85,13 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// What the library writes `_sum_rest(a, b, s)` and `_product_rest(a, b, p)`.
+    /// What the library writes `_sum_rest(a, b, s)` and `_product_rest(a, b, p)`, and a b + c of which the product is not rounded, which
+    /// has rests in wide tiers, too.
     fn rest_of_rounding(&self, name: &str) -> Option<&'static table::Row> {
         let prim = match name {
             "_sum_rest" => Prim::SumRest,
             "_product_rest" => Prim::ProductRest,
+            "_mul_add" => Prim::MulAdd,
             _ => return None,
         };
         (self.source == Source::Library).then(|| table::row(prim))
