@@ -60,8 +60,8 @@ fn exact_tiers() -> Vec<Tier> {
         .filter(|&form| found.is_exact(form));
     exact
         .map(|exactness| Tier {
-            precision: Precision::Extended,
             exactness,
+            ..Precision::Extended.into()
         })
         .collect()
 }
