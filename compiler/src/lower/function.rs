@@ -708,16 +708,32 @@ fn missing_form(name: &str) -> &'static str {
 /// What stands in for `fma` at places, in libraries for adapters that round it twice.
 const PLACE: &str = "real_place";
 
-/// Whether a number is an argument, or a multiple of one, or either beside a constant.
-fn is_given(graph: &Graph, id: Id) -> bool {
-    let node = graph.node(id);
-    match (node.op, node.args.as_slice()) {
-        (Op::Input(_), _) => true,
-        (Op::Apply(Prim::Neg), &[a]) => is_given(graph, a),
-        (Op::Apply(Prim::Mul | Prim::Add | Prim::Sub), &[a, b]) => {
-            let is_known = |id| graph.as_real(id).is_some();
-            is_known(a) && is_given(graph, b) || is_known(b) && is_given(graph, a)
+/// Whether a number is an argument, or a multiple of one, or either beside a constant, or a place itself.
+fn is_given(graph: &Graph, mut id: Id) -> bool {
+    while let (Op::Apply(Prim::MulAdd), &[_, factor, addend]) = parts(graph, id) {
+        if !is_argument(graph, factor) {
+            return false;
         }
-        _ => false,
+        id = addend;
     }
+    is_argument(graph, id)
+}
+
+/// The same of no place.
+fn is_argument(graph: &Graph, mut id: Id) -> bool {
+    let is_known = |id| graph.as_real(id).is_some();
+    loop {
+        id = match parts(graph, id) {
+            (Op::Input(_), _) => return true,
+            (Op::Apply(Prim::Neg), &[a]) => a,
+            (Op::Apply(Prim::Mul | Prim::Add | Prim::Sub), &[a, b]) if is_known(a) => b,
+            (Op::Apply(Prim::Mul | Prim::Add | Prim::Sub), &[a, b]) if is_known(b) => a,
+            _ => return false,
+        };
+    }
+}
+
+fn parts(graph: &Graph, id: Id) -> (Op, &[Id]) {
+    let node = graph.node(id);
+    (node.op, &node.args)
 }
