@@ -10,6 +10,7 @@ use super::body::Body;
 use super::branches::Branches;
 use super::factors::gathered;
 use super::lattice::Cells;
+use super::place;
 use super::plain::plain;
 use super::scaled::powers_in_products;
 use super::{Format, LowerError, NagaTypes, NumberTypes, Precision};
@@ -403,7 +404,7 @@ impl Lowering<'_, '_, '_> {
             Gpu::Binary(op) => self.operator(op, args[0], args[1]),
             Gpu::Unary(op) => Ok(self.unary(op, args[0])),
             Gpu::Builtin(_) if prim == Prim::MulAdd && self.is_split_place(node) => {
-                self.library(PLACE, args.to_vec())
+                self.library(place::STAND_IN, args.to_vec())
             }
             Gpu::Builtin(fun) => self.builtin(fun, &args),
             Gpu::Library(_, Some(fun)) if self.precision == Precision::Fast => {
@@ -434,13 +435,6 @@ impl Lowering<'_, '_, '_> {
     /// Which member of its family an operation is.
     fn order(&mut self, prim: Prim) -> Option<Handle<Expression>> {
         prim.order().map(|n| self.integer(n.into()))
-    }
-
-    /// Whether a sum is a place o + t d on a ray, whose product is rounded on its own where `fma` is not one operation. Elsewhere
-    /// the product is small beside what it is added to.
-    fn is_split_place(&self, node: &Node) -> bool {
-        let is_given = |&id: &Id| is_given(self.graph, id);
-        self.linker.offers(PLACE) && node.args[1..].iter().all(is_given)
     }
 
     fn is_quotient(&self, id: Id) -> bool {
@@ -703,37 +697,4 @@ fn missing_form(name: &str) -> &'static str {
                 || matches!(row.gpu, Gpu::Library(own, _) | Gpu::Family(own) if own == name)
         })
         .map_or("a library function", |row| row.usage)
-}
-
-/// What stands in for `fma` at places, in libraries for adapters that round it twice.
-const PLACE: &str = "real_place";
-
-/// Whether a number is an argument, or a multiple of one, or either beside a constant, or a place itself.
-fn is_given(graph: &Graph, mut id: Id) -> bool {
-    while let (Op::Apply(Prim::MulAdd), &[_, factor, addend]) = parts(graph, id) {
-        if !is_argument(graph, factor) {
-            return false;
-        }
-        id = addend;
-    }
-    is_argument(graph, id)
-}
-
-/// The same of no place.
-fn is_argument(graph: &Graph, mut id: Id) -> bool {
-    let is_known = |id| graph.as_real(id).is_some();
-    loop {
-        id = match parts(graph, id) {
-            (Op::Input(_), _) => return true,
-            (Op::Apply(Prim::Neg), &[a]) => a,
-            (Op::Apply(Prim::Mul | Prim::Add | Prim::Sub), &[a, b]) if is_known(a) => b,
-            (Op::Apply(Prim::Mul | Prim::Add | Prim::Sub), &[a, b]) if is_known(b) => a,
-            _ => return false,
-        };
-    }
-}
-
-fn parts(graph: &Graph, id: Id) -> (Op, &[Id]) {
-    let node = graph.node(id);
-    (node.op, &node.args)
 }

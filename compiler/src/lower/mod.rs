@@ -13,6 +13,7 @@ mod identifier;
 mod lattice;
 mod leaves;
 mod numbers;
+mod place;
 mod plain;
 mod repeat;
 mod scaled;
